@@ -1,4 +1,4 @@
-/* Assertions on floating-point numbers. Those of cmocka compare as float and let NaN pass.
+/* Tests, and assertions on floating-point numbers: those of cmocka compare as float and let NaN pass.
  * Include before anything that needs cmocka.
  * SPDX-License-Identifier: MIT */
 #ifndef TESTS_CHECK_H
@@ -27,6 +27,38 @@
 /* Case under test, printed in front of a failure: check_note("b = %g", b). */
 static char check_case[160];
 #define check_note(...) ((void)snprintf(check_case, sizeof check_case, __VA_ARGS__))
+
+/* ---- Tests, which join by themselves: TEST(test_what__how__what_comes_of_it) { ... } ---- */
+
+enum { CHECK_TESTS = 200 };
+static struct CMUnitTest check_tests[CHECK_TESTS];
+static int check_n;
+
+static inline void check_join(struct CMUnitTest test)
+{
+  if (check_n == CHECK_TESTS)
+    abort();
+  check_tests[check_n++] = test;
+}
+
+#define TEST(name) TEST_WITH(name, NULL, NULL)
+
+/* The same with a set-up and a tear-down of its own. */
+#define TEST_WITH(name, setup, teardown)                                                                               \
+  static void name(void **state);                                                                                      \
+  __attribute__((constructor)) static void name##_joins(void)                                                          \
+  {                                                                                                                    \
+    check_join((struct CMUnitTest){#name, name, setup, teardown, NULL});                                               \
+  }                                                                                                                    \
+  static void name(void **state)
+
+/* What main returns.  In: setup, teardown  of all tests together; may be NULL */
+static inline int tests_run(int (*setup)(void **state), int (*teardown)(void **state))
+{
+  return _cmocka_run_group_tests("tests", check_tests, (size_t)check_n, setup, teardown);
+}
+
+/* ---- Numbers ---- */
 
 /* Whether |got - want| <= atol + rtol |want|, both finite. */
 static inline int check_is_close(double got, double want, double atol, double rtol)

@@ -1,7 +1,7 @@
 /* The assertions of the tests themselves. */
 #include "check.h"
 
-static void test_check_is_close__nan_or_infinity__is_refused(void **state)
+TEST(test_check_is_close__nan_or_infinity__is_refused)
 {
   assert_false(check_is_close(NAN, 1, 1, 1));
   assert_false(check_is_close(1, NAN, 1, 1));
@@ -9,7 +9,7 @@ static void test_check_is_close__nan_or_infinity__is_refused(void **state)
   assert_false(check_is_close(INFINITY, INFINITY, 1, 1));
 }
 
-static void test_check_is_close__at_the_tolerance__is_accepted_and_beyond_refused(void **state)
+TEST(test_check_is_close__at_the_tolerance__is_accepted_and_beyond_refused)
 {
   assert_true(check_is_close(1.5, 1, 0.5, 0));
   assert_true(check_is_close(3, 2, 0, 0.5));
@@ -19,9 +19,5 @@ static void test_check_is_close__at_the_tolerance__is_accepted_and_beyond_refuse
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_check_is_close__nan_or_infinity__is_refused),
-      cmocka_unit_test(test_check_is_close__at_the_tolerance__is_accepted_and_beyond_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -96,14 +96,14 @@ static void assert_limited(const char *rig, const bad_log *b, const char *verdic
     assert_int_equal(found, 0);
 }
 
-static void test_closeloop__of_this_build__is_sanitized_as_its_test(void **state)
+TEST(test_closeloop__of_this_build__is_sanitized_as_its_test)
 {
   assert_sanitized_as_its_test(PROGRAMS "/closeloop");
 }
 
 /* ---- The sound log ---- */
 
-static void test_closeloop__sound_log__has_no_limitation(void **state)
+TEST(test_closeloop__sound_log__has_no_limitation)
 {
   char *report = report_of(bad_rig("rig.cfg", ""), bad_write("good.csv", header, &sound));
   assert_contains(report, "\"verdict\":\t\"none\"");
@@ -113,7 +113,7 @@ static void test_closeloop__sound_log__has_no_limitation(void **state)
 
 /* ---- Bytes ---- */
 
-static void test_closeloop__garbage__is_refused(void **state)
+TEST(test_closeloop__garbage__is_refused)
 {
   unsigned char bytes[8192];
   uint64_t seed = 3;
@@ -126,20 +126,20 @@ static void test_closeloop__garbage__is_refused(void **state)
   assert_refused(scratch_bytes("bad.csv", bytes, sizeof bytes), "bad.csv:1", "expected");
 }
 
-static void test_closeloop__utf16__is_read(void **state)
+TEST(test_closeloop__utf16__is_read)
 {
   static const char text[] = "\xFF\xFEt\0 \0[\0s\0]\0,\0u\0 \0[\0"
                              "1\0]\0\n\0";
   assert_refused(scratch_bytes("bad.csv", text, sizeof text - 1), "bad.csv", "expected rows of data, found none");
 }
 
-static void test_closeloop__zero_bytes_in_a_row__name_the_line(void **state)
+TEST(test_closeloop__zero_bytes_in_a_row__name_the_line)
 {
   static const char text[] = "t [s],u [1],p [kPa],x [mm]\n0,0,0,0\n0.01,0,\0\0,0\n";
   assert_refused(scratch_bytes("bad.csv", text, sizeof text - 1), "bad.csv:3", "0 byte");
 }
 
-static void test_closeloop__empty_missing_or_folder__is_refused(void **state)
+TEST(test_closeloop__empty_missing_or_folder__is_refused)
 {
   assert_refused(scratch_text("bad.csv", ""), "bad.csv", "empty");
   assert_refused(scratch_text("bad.csv", "t [s],u [1],p [kPa]\n"), "bad.csv", "found none");
@@ -147,7 +147,7 @@ static void test_closeloop__empty_missing_or_folder__is_refused(void **state)
   assert_refused(scratch_folder, scratch_folder, "folder");
 }
 
-static void test_closeloop__endless_line__is_refused(void **state)
+TEST(test_closeloop__endless_line__is_refused)
 {
   enum { SIZE = 1 << 22 };
   char *text = malloc(SIZE);
@@ -157,7 +157,7 @@ static void test_closeloop__endless_line__is_refused(void **state)
   free(text);
 }
 
-static void test_closeloop__dos_lines_and_mark__are_read(void **state)
+TEST(test_closeloop__dos_lines_and_mark__are_read)
 {
   char *text, *crlf = calloc(1, 1 << 20), *said;
   char *to = crlf;
@@ -179,7 +179,7 @@ static void test_closeloop__dos_lines_and_mark__are_read(void **state)
 
 /* ---- Rows ---- */
 
-static void test_closeloop__cut_off_row__names_the_line(void **state)
+TEST(test_closeloop__cut_off_row__names_the_line)
 {
   char *text;
   text = scratch_read(bad_write("bad.csv", header, &sound));
@@ -191,14 +191,14 @@ static void test_closeloop__cut_off_row__names_the_line(void **state)
   free(text);
 }
 
-static void test_closeloop__cut_off_header__is_refused(void **state)
+TEST(test_closeloop__cut_off_header__is_refused)
 {
   assert_refused(bad_write("bad.csv", "t [s],u [1],p [kP", &sound), "bad.csv:1", "p [kP");
   assert_refused(bad_write("bad.csv", "t [s],u [1],p [kPa]", &sound), "bad.csv:2", "expected 3 fields, found 4");
   assert_refused(bad_write("bad.csv", "t [s],u,p [kPa],x [mm]", &sound), "bad.csv:1", "column \"u\" has no unit");
 }
 
-static void test_closeloop__last_value_cut_short__is_left_out(void **state)
+TEST(test_closeloop__last_value_cut_short__is_left_out)
 {
   bad_log b = sound;
   b.n = 300;    /* in the middle of a hold at high pressure */
@@ -215,7 +215,7 @@ static void swap(double *a, double *b)
   *b = keep;
 }
 
-static void test_closeloop__times_out_of_order__name_the_line(void **state)
+TEST(test_closeloop__times_out_of_order__name_the_line)
 {
   bad_log b = sound;
   swap(&b.t[500], &b.t[700]);
@@ -232,7 +232,7 @@ static void test_closeloop__times_out_of_order__name_the_line(void **state)
 }
 
 /* A row whose time is that of the row before is left out where the rig file asks for it, and counted. */
-static void test_closeloop__damaged_rows__are_left_out_and_counted(void **state)
+TEST(test_closeloop__damaged_rows__are_left_out_and_counted)
 {
   bad_log b = sound;
   b.t[500] = b.t[499];
@@ -240,7 +240,7 @@ static void test_closeloop__damaged_rows__are_left_out_and_counted(void **state)
   assert_limited(bad_rig("rig.cfg", "log = { damaged = \"drop\"; };\n"), &b, "none", "2 damaged rows of ");
 }
 
-static void test_closeloop__shuffled_rows__are_refused(void **state)
+TEST(test_closeloop__shuffled_rows__are_refused)
 {
   bad_log b = sound;
   uint64_t seed = 5;
@@ -256,7 +256,7 @@ static void test_closeloop__shuffled_rows__are_refused(void **state)
 }
 
 /* Times renumbered over rows in disorder: nothing is left for the reader to see. */
-static void test_closeloop__shuffled_values__do_not_match_the_command(void **state)
+TEST(test_closeloop__shuffled_values__do_not_match_the_command)
 {
   bad_log b = sound;
   size_t i;
@@ -272,7 +272,7 @@ static void test_closeloop__shuffled_values__do_not_match_the_command(void **sta
   }
 }
 
-static void test_closeloop__jump_in_time__is_a_limitation(void **state)
+TEST(test_closeloop__jump_in_time__is_a_limitation)
 {
   bad_log b = sound;
   size_t i;
@@ -283,7 +283,7 @@ static void test_closeloop__jump_in_time__is_a_limitation(void **state)
 
 /* ---- Units ---- */
 
-static void test_closeloop__units_that_disagree__are_refused(void **state)
+TEST(test_closeloop__units_that_disagree__are_refused)
 {
   static const struct slip {
     const char *header, *words;
@@ -306,7 +306,7 @@ static void test_closeloop__units_that_disagree__are_refused(void **state)
 }
 
 /* A channel that is not what its column says: a straight line of what it ought to be. */
-static void test_closeloop__channel_scaled_turned_or_dead__is_refused(void **state)
+TEST(test_closeloop__channel_scaled_turned_or_dead__is_refused)
 {
   enum { U = offsetof(bad_log, u), P = offsetof(bad_log, p), X = offsetof(bad_log, x) };
   static const struct {
@@ -335,7 +335,7 @@ static void test_closeloop__channel_scaled_turned_or_dead__is_refused(void **sta
   }
 }
 
-static void test_closeloop__absolute_called_gauge__is_undecided(void **state)
+TEST(test_closeloop__absolute_called_gauge__is_undecided)
 {
   bad_log b = sound;
   size_t i;
@@ -347,7 +347,7 @@ static void test_closeloop__absolute_called_gauge__is_undecided(void **state)
 /* ---- Sensors ---- */
 
 /* A clipped pressure stands still under an open orifice, as one does that leaks: it must not be called a leak. */
-static void test_closeloop__saturated_pressure__is_left_out_and_said(void **state)
+TEST(test_closeloop__saturated_pressure__is_left_out_and_said)
 {
   bad_log b = sound;
   size_t i;
@@ -356,7 +356,7 @@ static void test_closeloop__saturated_pressure__is_left_out_and_said(void **stat
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "stands at exactly 180 kPa, its largest value");
 }
 
-static void test_closeloop__saturated_position__is_left_out_and_said(void **state)
+TEST(test_closeloop__saturated_position__is_left_out_and_said)
 {
   bad_log b = sound;
   size_t i;
@@ -366,7 +366,7 @@ static void test_closeloop__saturated_position__is_left_out_and_said(void **stat
 }
 
 /* Noise of a pressure that drives the model does not drive the stem: friction and spring come out as they are. */
-static void test_closeloop__pressure_as_input__shows_friction_and_spring(void **state)
+TEST(test_closeloop__pressure_as_input__shows_friction_and_spring)
 {
   const char *rig = scratch_text(
       "driven.cfg", "actuator = { area = \"400 cm^2\"; dead_volume = \"40 cm^3\"; stroke = \"20 mm\";\n"
@@ -383,7 +383,7 @@ static void test_closeloop__pressure_as_input__shows_friction_and_spring(void **
   free(report);
 }
 
-static void test_closeloop__spikes__are_left_out_and_said(void **state)
+TEST(test_closeloop__spikes__are_left_out_and_said)
 {
   bad_log b = sound;
   size_t i;
@@ -392,7 +392,7 @@ static void test_closeloop__spikes__are_left_out_and_said(void **state)
   assert_limited(bad_rig("rig.cfg", ""), &b, "none", "8 values of channel p are far from both neighbours");
 }
 
-static void test_closeloop__values_that_stand_alone__are_left_out_and_said(void **state)
+TEST(test_closeloop__values_that_stand_alone__are_left_out_and_said)
 {
   bad_log b = sound;
   size_t i;
@@ -402,7 +402,7 @@ static void test_closeloop__values_that_stand_alone__are_left_out_and_said(void 
 }
 
 /* Beside a change of the command, where a table of the sensor's error, a flow or a gain would explain it. */
-static void test_closeloop__one_bad_value__brings_no_name(void **state)
+TEST(test_closeloop__one_bad_value__brings_no_name)
 {
   static const size_t row[] = {43, 44, 45};
   size_t i;
@@ -424,7 +424,7 @@ static void assert_undecided_with_all(const bad_log *b)
 }
 
 /* What comes back with every command is no accident. */
-static void test_closeloop__bad_values_after_each_command__stay(void **state)
+TEST(test_closeloop__bad_values_after_each_command__stay)
 {
   static const size_t row[] = {44, 254, 404, 554, 724};
   bad_log b = sound;
@@ -435,7 +435,7 @@ static void test_closeloop__bad_values_after_each_command__stay(void **state)
 }
 
 /* Where more than single values is beyond the model, what lasts a row may be real, too. */
-static void test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay(void **state)
+TEST(test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay)
 {
   bad_log b = sound;
   size_t i;
@@ -446,7 +446,7 @@ static void test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay(voi
   assert_undecided_with_all(&b);
 }
 
-static void test_closeloop__coarse_steps__are_a_limitation(void **state)
+TEST(test_closeloop__coarse_steps__are_a_limitation)
 {
   bad_log b = sound;
   size_t i;
@@ -457,14 +457,14 @@ static void test_closeloop__coarse_steps__are_a_limitation(void **state)
 
 /* ---- Too little ---- */
 
-static void test_closeloop__too_few_rows__is_refused(void **state)
+TEST(test_closeloop__too_few_rows__is_refused)
 {
   bad_log b = sound;
   b.n = 2;
   assert_spoiled_is_refused(&b, "", "too short");
 }
 
-static void test_closeloop__short_log__is_undecided(void **state)
+TEST(test_closeloop__short_log__is_undecided)
 {
   bad_log b = sound;
   size_t i;
@@ -478,14 +478,14 @@ static void test_closeloop__short_log__is_undecided(void **state)
   assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "too few to name an effect");
 }
 
-static void test_closeloop__still_log__is_refused(void **state)
+TEST(test_closeloop__still_log__is_refused)
 {
   bad_log b = sound;
   b.n = 40; /* before the first command */
   assert_spoiled_is_refused(&b, "", "nothing moves");
 }
 
-static void test_closeloop__part_of_a_stroke__is_a_limitation(void **state)
+TEST(test_closeloop__part_of_a_stroke__is_a_limitation)
 {
   bad_log b = sound;
   while (b.n > 0 && b.x[b.n - 1] > 0.2 * 20)
@@ -497,7 +497,7 @@ static void test_closeloop__part_of_a_stroke__is_a_limitation(void **state)
 
 /* ---- Too much ---- */
 
-static void test_closeloop__measured_supply_that_is_no_input__is_said(void **state)
+TEST(test_closeloop__measured_supply_that_is_no_input__is_said)
 {
   const char *path = scratch_path("supply.csv");
   FILE *file = fopen(path, "w");
@@ -515,7 +515,7 @@ static void test_closeloop__measured_supply_that_is_no_input__is_said(void **sta
   free(report);
 }
 
-static void test_closeloop__many_rows__are_thinned_and_said(void **state)
+TEST(test_closeloop__many_rows__are_thinned_and_said)
 {
   enum { MANY = 50001 };
   static double t[MANY], u[MANY], p[MANY], x[MANY];
@@ -539,7 +539,7 @@ static void test_closeloop__many_rows__are_thinned_and_said(void **state)
 
 /* ---- Commands ---- */
 
-static void test_closeloop__command_of_another_test__is_refused(void **state)
+TEST(test_closeloop__command_of_another_test__is_refused)
 {
   bad_log b = sound;
   size_t i;
@@ -558,7 +558,7 @@ static bad_log shifted(int rows)
   return b;
 }
 
-static void test_closeloop__command_recorded_too_late__is_refused(void **state)
+TEST(test_closeloop__command_recorded_too_late__is_refused)
 {
   bad_log b;
   b = shifted(60);
@@ -567,7 +567,7 @@ static void test_closeloop__command_recorded_too_late__is_refused(void **state)
   assert_spoiled_is_refused(&b, "bad.csv", "the command does not match");
 }
 
-static void test_closeloop__one_stroke_before_its_command__is_refused(void **state)
+TEST(test_closeloop__one_stroke_before_its_command__is_refused)
 {
   bad_log b = shifted(30);
   b.n = 350;
@@ -575,7 +575,7 @@ static void test_closeloop__one_stroke_before_its_command__is_refused(void **sta
 }
 
 /* The same changes at other instants, some before and some after those of the test. */
-static void test_closeloop__commands_at_other_instants__are_refused(void **state)
+TEST(test_closeloop__commands_at_other_instants__are_refused)
 {
   static const double at[] = {0.402, 2.1, 4.4, 5.1, 7.6}, to[] = {1, 0, -1, 0.5, -0.5};
   bad_log b = sound;
@@ -588,7 +588,7 @@ static void test_closeloop__commands_at_other_instants__are_refused(void **state
   assert_spoiled_is_refused(&b, "bad.csv:", "p moves against it or before it");
 }
 
-static void test_closeloop__quick_commands_of_another_test__are_refused(void **state)
+TEST(test_closeloop__quick_commands_of_another_test__are_refused)
 {
   bad_log b = sound;
   size_t i;
@@ -597,7 +597,7 @@ static void test_closeloop__quick_commands_of_another_test__are_refused(void **s
   assert_spoiled_is_refused(&b, "bad.csv", "is not what the declared model makes of u");
 }
 
-static void test_closeloop__command_seconds_too_early__is_no_dead_time(void **state)
+TEST(test_closeloop__command_seconds_too_early__is_no_dead_time)
 {
   bad_log b = sound;
   size_t i, k;
@@ -609,7 +609,7 @@ static void test_closeloop__command_seconds_too_early__is_no_dead_time(void **st
   assert_limited(bad_rig("rig.cfg", ""), &b, "undecided", "different clocks");
 }
 
-static void test_closeloop__command_from_0_to_1__is_undecided(void **state)
+TEST(test_closeloop__command_from_0_to_1__is_undecided)
 {
   bad_log b = sound;
   size_t i;
@@ -620,7 +620,7 @@ static void test_closeloop__command_from_0_to_1__is_undecided(void **state)
 
 /* ---- Another rig ---- */
 
-static void test_closeloop__supply_in_another_unit__is_refused(void **state)
+TEST(test_closeloop__supply_in_another_unit__is_refused)
 {
   char *text = scratch_read(bad_rig("rig.cfg", "")), *pressure = strstr(text, "\"400 kPa\"");
   memcpy(pressure, "4.0      ", 9);
@@ -629,7 +629,7 @@ static void test_closeloop__supply_in_another_unit__is_refused(void **state)
   free(text);
 }
 
-static void test_closeloop__bad_holdout__is_refused_before_any_fit(void **state)
+TEST(test_closeloop__bad_holdout__is_refused_before_any_fit)
 {
   char command[2048], *text;
   bad_log b = sound;
@@ -650,50 +650,5 @@ static void test_closeloop__bad_holdout__is_refused_before_any_fit(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_closeloop__of_this_build__is_sanitized_as_its_test),
-      cmocka_unit_test(test_closeloop__sound_log__has_no_limitation),
-      cmocka_unit_test(test_closeloop__garbage__is_refused),
-      cmocka_unit_test(test_closeloop__utf16__is_read),
-      cmocka_unit_test(test_closeloop__zero_bytes_in_a_row__name_the_line),
-      cmocka_unit_test(test_closeloop__empty_missing_or_folder__is_refused),
-      cmocka_unit_test(test_closeloop__endless_line__is_refused),
-      cmocka_unit_test(test_closeloop__dos_lines_and_mark__are_read),
-      cmocka_unit_test(test_closeloop__cut_off_row__names_the_line),
-      cmocka_unit_test(test_closeloop__cut_off_header__is_refused),
-      cmocka_unit_test(test_closeloop__last_value_cut_short__is_left_out),
-      cmocka_unit_test(test_closeloop__times_out_of_order__name_the_line),
-      cmocka_unit_test(test_closeloop__damaged_rows__are_left_out_and_counted),
-      cmocka_unit_test(test_closeloop__shuffled_rows__are_refused),
-      cmocka_unit_test(test_closeloop__shuffled_values__do_not_match_the_command),
-      cmocka_unit_test(test_closeloop__jump_in_time__is_a_limitation),
-      cmocka_unit_test(test_closeloop__units_that_disagree__are_refused),
-      cmocka_unit_test(test_closeloop__channel_scaled_turned_or_dead__is_refused),
-      cmocka_unit_test(test_closeloop__absolute_called_gauge__is_undecided),
-      cmocka_unit_test(test_closeloop__saturated_pressure__is_left_out_and_said),
-      cmocka_unit_test(test_closeloop__saturated_position__is_left_out_and_said),
-      cmocka_unit_test(test_closeloop__pressure_as_input__shows_friction_and_spring),
-      cmocka_unit_test(test_closeloop__spikes__are_left_out_and_said),
-      cmocka_unit_test(test_closeloop__values_that_stand_alone__are_left_out_and_said),
-      cmocka_unit_test(test_closeloop__one_bad_value__brings_no_name),
-      cmocka_unit_test(test_closeloop__bad_values_after_each_command__stay),
-      cmocka_unit_test(test_closeloop__values_that_stand_alone_in_bursts_of_noise__stay),
-      cmocka_unit_test(test_closeloop__coarse_steps__are_a_limitation),
-      cmocka_unit_test(test_closeloop__too_few_rows__is_refused),
-      cmocka_unit_test(test_closeloop__short_log__is_undecided),
-      cmocka_unit_test(test_closeloop__still_log__is_refused),
-      cmocka_unit_test(test_closeloop__part_of_a_stroke__is_a_limitation),
-      cmocka_unit_test(test_closeloop__measured_supply_that_is_no_input__is_said),
-      cmocka_unit_test(test_closeloop__many_rows__are_thinned_and_said),
-      cmocka_unit_test(test_closeloop__command_of_another_test__is_refused),
-      cmocka_unit_test(test_closeloop__command_recorded_too_late__is_refused),
-      cmocka_unit_test(test_closeloop__one_stroke_before_its_command__is_refused),
-      cmocka_unit_test(test_closeloop__commands_at_other_instants__are_refused),
-      cmocka_unit_test(test_closeloop__quick_commands_of_another_test__are_refused),
-      cmocka_unit_test(test_closeloop__command_seconds_too_early__is_no_dead_time),
-      cmocka_unit_test(test_closeloop__command_from_0_to_1__is_undecided),
-      cmocka_unit_test(test_closeloop__supply_in_another_unit__is_refused),
-      cmocka_unit_test(test_closeloop__bad_holdout__is_refused_before_any_fit),
-  };
-  return cmocka_run_group_tests(tests, open_all, scratch_close);
+  return tests_run(open_all, scratch_close);
 }

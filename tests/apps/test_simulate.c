@@ -72,12 +72,12 @@ static double cell(int row, int column)
   return strtod(at, NULL);
 }
 
-static void test_simulate__of_this_build__is_sanitized_as_its_test(void **state)
+TEST(test_simulate__of_this_build__is_sanitized_as_its_test)
 {
   assert_sanitized_as_its_test(PROGRAMS "/simulate");
 }
 
-static void test_simulate__supply_in_another_unit__says_that_the_stem_stands_still(void **state)
+TEST(test_simulate__supply_in_another_unit__says_that_the_stem_stands_still)
 {
   scratch_text("bar.cfg", "supply = { pressure = 2.5; };\n");
   assert_int_equal(run("@/bar.cfg --step"), 0);
@@ -86,7 +86,7 @@ static void test_simulate__supply_in_another_unit__says_that_the_stem_stands_sti
   assert_contains(err, "did you mean \"2.5 bar\"?");
 }
 
-static void test_simulate__step__prints_the_standard_experiment(void **state)
+TEST(test_simulate__step__prints_the_standard_experiment)
 {
   assert_int_equal(run("@/m.cfg --step"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
@@ -97,7 +97,7 @@ static void test_simulate__step__prints_the_standard_experiment(void **state)
   assert_string_equal(err, "");
 }
 
-static void test_simulate__log__predicts_at_its_times(void **state)
+TEST(test_simulate__log__predicts_at_its_times)
 {
   assert_int_equal(run("@/m.cfg @/log.csv"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
@@ -110,21 +110,21 @@ static void test_simulate__log__predicts_at_its_times(void **state)
   assert_true(cell(4, 3) > 1);
 }
 
-static void test_simulate__log_without_outputs__gives_pressure_and_position(void **state)
+TEST(test_simulate__log_without_outputs__gives_pressure_and_position)
 {
   assert_int_equal(run("@/m.cfg @/only_u.csv"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],p [kPa],x [mm]\n", 27), 0);
   assert_string_equal(err, "");
 }
 
-static void test_simulate__command_that_never_vents__is_noted(void **state)
+TEST(test_simulate__command_that_never_vents__is_noted)
 {
   scratch_text("back.csv", "t [s],u [1]\n0,0\n1,1\n5,0\n9,0\n");
   assert_int_equal(run("@/m.cfg @/back.csv"), 0);
   assert_contains(err, "u never goes below 0, so that nothing vents: 1 fills, 0 shuts, -1 vents");
 }
 
-static void test_simulate__log_of_position__gives_position_alone(void **state)
+TEST(test_simulate__log_of_position__gives_position_alone)
 {
   assert_int_equal(run("@/m.cfg @/only_x.csv"), 0);
   assert_int_equal(strncmp(out, "t [s],u [1],x [mm]\n", 19), 0);
@@ -132,7 +132,7 @@ static void test_simulate__log_of_position__gives_position_alone(void **state)
 }
 
 /* The set position drives through the positioner, unless the log has the command too; both are shown. */
-static void test_simulate__set_position__drives_through_the_positioner(void **state)
+TEST(test_simulate__set_position__drives_through_the_positioner)
 {
   scratch_text("closed.cfg", "positioner = { gain = 20; dead_band = \"0.2 %\"; };\n");
   scratch_text("sp.csv", "t [s],sp [%],x [mm]\n0,0,0\n1,50,0\n49,50,10\n50,25,10\n99,25,5\n");
@@ -149,7 +149,7 @@ static void test_simulate__set_position__drives_through_the_positioner(void **st
   assert_contains(err, "positioner = { gain = 20; }");
 }
 
-static void test_simulate__metrics_of_set_positions__are_of_the_set_position(void **state)
+TEST(test_simulate__metrics_of_set_positions__are_of_the_set_position)
 {
   scratch_text("closed.cfg", "positioner = { gain = 20; };\n");
   scratch_text("sp.csv", "t [s],sp [%]\n0,10\n10,20\n20,30\n30,40\n40,50\n50,60\n60,50\n70,40\n80,30\n90,20\n100,20\n");
@@ -161,7 +161,7 @@ static void test_simulate__metrics_of_set_positions__are_of_the_set_position(voi
 }
 
 /* The stroke of the standard experiment, by the rows and by the figures. */
-static void test_simulate__metrics__those_of_the_response(void **state)
+TEST(test_simulate__metrics__those_of_the_response)
 {
   double rise = 0;
   int row;
@@ -181,7 +181,7 @@ static void test_simulate__metrics__those_of_the_response(void **state)
   assert_contains(out, "\"reason\":");
 }
 
-static void test_simulate__metrics_of_a_log__sampled_finely(void **state)
+TEST(test_simulate__metrics_of_a_log__sampled_finely)
 {
   scratch_text("strokes.csv", "t [s],u [1]\n0,-1\n1,1\n16,-1\n31,-1\n");
   assert_int_equal(run("@/m.cfg @/strokes.csv --metrics"), 0);
@@ -201,7 +201,7 @@ static double figure(const char *name)
 }
 
 /* 480 N of friction both ways on 0.04 m2 are 24 kPa of a bench set of 200 kPa, whatever drives the model. */
-static void test_simulate__schedules__show_the_friction_that_is_declared(void **state)
+TEST(test_simulate__schedules__show_the_friction_that_is_declared)
 {
   static const struct {
     const char *arguments;
@@ -226,13 +226,13 @@ static void test_simulate__schedules__show_the_friction_that_is_declared(void **
   assert_close(figure("energy_in"), 0.04 * 4e5 * 0.02, 0, 1e-6);
 }
 
-static void test_simulate__json_alone__is_refused(void **state)
+TEST(test_simulate__json_alone__is_refused)
 {
   assert_int_equal(run("@/m.cfg --step --json"), 2);
   assert_contains(err, "--json: goes with --metrics");
 }
 
-static void test_simulate__runs__start_afresh(void **state)
+TEST(test_simulate__runs__start_afresh)
 {
   assert_int_equal(run("@/runs.cfg @/runs.csv"), 0);
   assert_int_equal(lines_of(out), 5);
@@ -241,7 +241,7 @@ static void test_simulate__runs__start_afresh(void **state)
   assert_close(cell(4, 2), cell(2, 2), 0, 0);
 }
 
-static void test_simulate__vessel__fills(void **state)
+TEST(test_simulate__vessel__fills)
 {
   assert_int_equal(run("@/vessel.cfg --step"), 0);
   assert_close(cell(1540, 2), 400, 1, 0);
@@ -249,7 +249,7 @@ static void test_simulate__vessel__fills(void **state)
 }
 
 /* Shut for 0.5 s: a constant flow into a litre makes the pressure rise by q R T/V. */
-static void test_simulate__flow_of_no_name__fills_while_shut(void **state)
+TEST(test_simulate__flow_of_no_name__fills_while_shut)
 {
   scratch_text("unlisted.cfg", "actuator = { stroke = 0; dead_volume = \"1 l\"; };\n"
                                "unlisted = ( { equation = \"flow\"; argument = \"p\"; from = 0; to = 1;\n"
@@ -259,7 +259,7 @@ static void test_simulate__flow_of_no_name__fills_while_shut(void **state)
   assert_close(cell(41, 2), 0.4e-3 * 1e-5 * 287.1015193370166 * 298.15 / 1e-3, 0, 1e-6);
 }
 
-static void test_simulate__pressure_command__is_written_as_one(void **state)
+TEST(test_simulate__pressure_command__is_written_as_one)
 {
   scratch_text("band.cfg", "transducer = { proportional_band = \"5 kPa\"; };\n");
   assert_int_equal(run("@/band.cfg --step"), 0);
@@ -268,7 +268,7 @@ static void test_simulate__pressure_command__is_written_as_one(void **state)
   assert_true(cell(1540, 2) > 390 && cell(1540, 2) <= 400);
 }
 
-static void test_simulate__out__writes_the_file_and_nothing_else(void **state)
+TEST(test_simulate__out__writes_the_file_and_nothing_else)
 {
   assert_int_equal(run("--out @/deep/er/o.csv @/m.cfg @/log.csv"), 0);
   assert_string_equal(out, "");
@@ -276,7 +276,7 @@ static void test_simulate__out__writes_the_file_and_nothing_else(void **state)
   assert_false(scratch_exists(scratch_path("deep/er/o.csv.part")));
 }
 
-static void test_simulate__bad_log__leaves_no_file(void **state)
+TEST(test_simulate__bad_log__leaves_no_file)
 {
   assert_int_equal(run("--out @/torn_out.csv @/m.cfg @/torn.csv"), 1);
   assert_contains(err, "torn.csv:3: expected 3 fields, found 2");
@@ -284,7 +284,7 @@ static void test_simulate__bad_log__leaves_no_file(void **state)
   assert_false(scratch_exists(scratch_path("torn_out.csv.part")));
 }
 
-static void test_simulate__bad_model__is_1_with_line_and_key(void **state)
+TEST(test_simulate__bad_model__is_1_with_line_and_key)
 {
   assert_int_equal(run("@/bad.cfg --step"), 1);
   assert_contains(err, "simulate: ");
@@ -292,7 +292,7 @@ static void test_simulate__bad_model__is_1_with_line_and_key(void **state)
   assert_string_equal(out, "");
 }
 
-static void test_simulate__missing_files__are_1(void **state)
+TEST(test_simulate__missing_files__are_1)
 {
   assert_int_equal(run("@/none.cfg --step"), 1);
   assert_contains(err, "none.cfg: there is no such file");
@@ -300,7 +300,7 @@ static void test_simulate__missing_files__are_1(void **state)
   assert_contains(err, "none.csv: there is no such file");
 }
 
-static void test_simulate__bad_usage__is_2(void **state)
+TEST(test_simulate__bad_usage__is_2)
 {
   assert_int_equal(run(""), 2);
   assert_int_equal(run("@/m.cfg"), 2);
@@ -310,20 +310,20 @@ static void test_simulate__bad_usage__is_2(void **state)
   assert_contains(err, "--step");
 }
 
-static void test_simulate__full_disk__is_4(void **state)
+TEST(test_simulate__full_disk__is_4)
 {
   scratch_device("full", "/dev/full");
   assert_int_equal(run("@/m.cfg --step --out @/full"), 4);
   assert_contains(err, "No space left on device");
 }
 
-static void test_simulate__unwritable_folder__is_4(void **state)
+TEST(test_simulate__unwritable_folder__is_4)
 {
   assert_int_equal(run("@/m.cfg --step --out @/m.cfg/o.csv"), 4);
   assert_contains(err, "cannot be");
 }
 
-static void test_simulate__help_and_version__are_0_on_stdout(void **state)
+TEST(test_simulate__help_and_version__are_0_on_stdout)
 {
   assert_int_equal(run("--help"), 0);
   assert_contains(out, "Usage: simulate");
@@ -334,32 +334,5 @@ static void test_simulate__help_and_version__are_0_on_stdout(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_simulate__of_this_build__is_sanitized_as_its_test),
-      cmocka_unit_test(test_simulate__supply_in_another_unit__says_that_the_stem_stands_still),
-      cmocka_unit_test(test_simulate__step__prints_the_standard_experiment),
-      cmocka_unit_test(test_simulate__log__predicts_at_its_times),
-      cmocka_unit_test(test_simulate__log_without_outputs__gives_pressure_and_position),
-      cmocka_unit_test(test_simulate__command_that_never_vents__is_noted),
-      cmocka_unit_test(test_simulate__log_of_position__gives_position_alone),
-      cmocka_unit_test(test_simulate__set_position__drives_through_the_positioner),
-      cmocka_unit_test(test_simulate__metrics_of_set_positions__are_of_the_set_position),
-      cmocka_unit_test(test_simulate__metrics__those_of_the_response),
-      cmocka_unit_test(test_simulate__metrics_of_a_log__sampled_finely),
-      cmocka_unit_test(test_simulate__schedules__show_the_friction_that_is_declared),
-      cmocka_unit_test(test_simulate__json_alone__is_refused),
-      cmocka_unit_test(test_simulate__runs__start_afresh),
-      cmocka_unit_test(test_simulate__vessel__fills),
-      cmocka_unit_test(test_simulate__flow_of_no_name__fills_while_shut),
-      cmocka_unit_test(test_simulate__pressure_command__is_written_as_one),
-      cmocka_unit_test(test_simulate__out__writes_the_file_and_nothing_else),
-      cmocka_unit_test(test_simulate__bad_log__leaves_no_file),
-      cmocka_unit_test(test_simulate__bad_model__is_1_with_line_and_key),
-      cmocka_unit_test(test_simulate__missing_files__are_1),
-      cmocka_unit_test(test_simulate__bad_usage__is_2),
-      cmocka_unit_test(test_simulate__full_disk__is_4),
-      cmocka_unit_test(test_simulate__unwritable_folder__is_4),
-      cmocka_unit_test(test_simulate__help_and_version__are_0_on_stdout),
-  };
-  return cmocka_run_group_tests_name("simulate", tests, write_inputs, scratch_close);
+  return tests_run(write_inputs, scratch_close);
 }

@@ -31,7 +31,7 @@ static blind_trial draw_with(const char *effect, int channels)
 
 /* ---- draw ---- */
 
-static void test_blind_draw__same_seed_and_number__same_trial(void **state)
+TEST(test_blind_draw__same_seed_and_number__same_trial)
 {
   const blind_trial a = draw(7), b = draw(7), c = draw(27);
   blind_trial other_seed;
@@ -42,7 +42,7 @@ static void test_blind_draw__same_seed_and_number__same_trial(void **state)
   assert_memory_not_equal(&a.fit, &other_seed.fit, sizeof a.fit);
 }
 
-static void test_blind_draw__many__kinds_and_effects_have_their_share(void **state)
+TEST(test_blind_draw__many__kinds_and_effects_have_their_share)
 {
   const int listed = blind_listed_count(), trials = 20 * listed;
   int kinds[BLIND_KINDS] = {0}, *drawn = calloc((size_t)blind_effect_count, sizeof *drawn), k;
@@ -70,7 +70,7 @@ static void assert_size_in_range(const blind_missing *m, const second_rig *base)
   assert_true(m->effect->either_sign || share > 0);
 }
 
-static void test_blind_draw__many__are_within_their_ranges(void **state)
+TEST(test_blind_draw__many__are_within_their_ranges)
 {
   int k, i;
   for (k = 0; k < 400; k++) {
@@ -89,7 +89,7 @@ static void test_blind_draw__many__are_within_their_ranges(void **state)
   }
 }
 
-static void test_blind_draw__commands__are_not_on_rows_and_differ_between_the_logs(void **state)
+TEST(test_blind_draw__commands__are_not_on_rows_and_differ_between_the_logs)
 {
   int k, on_row = 0;
   size_t i;
@@ -105,7 +105,7 @@ static void test_blind_draw__commands__are_not_on_rows_and_differ_between_the_lo
   assert_int_equal(on_row, 0);
 }
 
-static void test_blind_truth__nothing_missing__is_the_base_rig(void **state)
+TEST(test_blind_truth__nothing_missing__is_the_base_rig)
 {
   const blind_trial t = draw_with("chamber_leak", BLIND_P | BLIND_X);
   const second_rig without = blind_truth(&t, 0), with = blind_truth(&t, BLIND_ALL);
@@ -115,7 +115,7 @@ static void test_blind_truth__nothing_missing__is_the_base_rig(void **state)
   assert_close(with.leak_area, t.missing[0].size, 0, 0);
 }
 
-static void test_blind_draw__any_rig__makes_its_whole_stroke(void **state)
+TEST(test_blind_draw__any_rig__makes_its_whole_stroke)
 {
   int k;
   for (k = 0; k < 24; k++) {
@@ -151,7 +151,7 @@ static int is_undrawn(const char *name)
   return any;
 }
 
-static void test_blind_effects__each_of_the_catalogue__is_drawn_under_its_name_and_equation(void **state)
+TEST(test_blind_effects__each_of_the_catalogue__is_drawn_under_its_name_and_equation)
 {
   int i;
   for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
@@ -175,7 +175,7 @@ static void assert_same_file(const char *a, const char *b)
   free(two);
 }
 
-static void test_blind_write_logs__twice__same_bytes(void **state)
+TEST(test_blind_write_logs__twice__same_bytes)
 {
   blind_trial t = draw(3);
   char a[600], b[600];
@@ -217,7 +217,7 @@ static void assert_readable(int number)
   lab_log_free(&log);
 }
 
-static void test_blind_write_logs__every_kind_of_trial__is_read_by_closeloop(void **state)
+TEST(test_blind_write_logs__every_kind_of_trial__is_read_by_closeloop)
 {
   int k;
   for (k = 0; k < 60; k++)
@@ -226,20 +226,20 @@ static void test_blind_write_logs__every_kind_of_trial__is_read_by_closeloop(voi
 
 /* ---- Limit ---- */
 
-static void test_blind_projected__plane_in_space__leaves_the_third_axis(void **state)
+TEST(test_blind_projected__plane_in_space__leaves_the_third_axis)
 {
   double column[2][3] = {{1, 1, 0}, {1, -3, 0}}, s[3] = {5, 7, 3};
   assert_close(blind_projected(&column[0][0], 2, s, 3), 9, 1e-12, 0);
 }
 
-static void test_blind_projected__same_column_twice__counts_once(void **state)
+TEST(test_blind_projected__same_column_twice__counts_once)
 {
   double column[2][3] = {{1, 2, 2}, {2, 4, 4}}, s[3] = {1, 2, 3};
   assert_close(blind_projected(&column[0][0], 2, s, 3), 14 - 11.0 * 11.0 / 9, 1e-12, 0);
 }
 
 /* A bias of position cannot be seen better than by the mean of all rows: 5 sigma/sqrt(n). */
-static void test_blind_limit__position_bias__is_somewhat_above_that_of_the_mean(void **state)
+TEST(test_blind_limit__position_bias__is_somewhat_above_that_of_the_mean)
 {
   const blind_trial t = draw_with("position_bias", BLIND_P | BLIND_X);
   const double n = (double)second_samples(t.fit.end, t.spacing), mean = 5 * t.base.position_noise / sqrt(n);
@@ -249,7 +249,7 @@ static void test_blind_limit__position_bias__is_somewhat_above_that_of_the_mean(
   assert_close(statistic, 25 * t.missing[0].size * t.missing[0].size / (size * size), 0, 1e-6);
 }
 
-static void test_blind_limit__other_size__is_the_same(void **state)
+TEST(test_blind_limit__other_size__is_the_same)
 {
   blind_trial t = draw_with("chamber_leak", BLIND_P | BLIND_X);
   double size[2], statistic;
@@ -260,7 +260,7 @@ static void test_blind_limit__other_size__is_the_same(void **state)
 }
 
 /* Not known to within a row, an instant hides a dead time shorter than that; known, it does not. */
-static void test_blind_limit__dead_time__grows_with_the_spacing_of_rows(void **state)
+TEST(test_blind_limit__dead_time__grows_with_the_spacing_of_rows)
 {
   blind_trial t = draw_with("dead_time", BLIND_P | BLIND_X);
   double fine, coarse, statistic;
@@ -273,21 +273,5 @@ static void test_blind_limit__dead_time__grows_with_the_spacing_of_rows(void **s
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_blind_draw__same_seed_and_number__same_trial),
-      cmocka_unit_test(test_blind_draw__many__kinds_and_effects_have_their_share),
-      cmocka_unit_test(test_blind_draw__many__are_within_their_ranges),
-      cmocka_unit_test(test_blind_draw__commands__are_not_on_rows_and_differ_between_the_logs),
-      cmocka_unit_test(test_blind_truth__nothing_missing__is_the_base_rig),
-      cmocka_unit_test(test_blind_draw__any_rig__makes_its_whole_stroke),
-      cmocka_unit_test(test_blind_effects__each_of_the_catalogue__is_drawn_under_its_name_and_equation),
-      cmocka_unit_test(test_blind_write_logs__twice__same_bytes),
-      cmocka_unit_test(test_blind_write_logs__every_kind_of_trial__is_read_by_closeloop),
-      cmocka_unit_test(test_blind_projected__plane_in_space__leaves_the_third_axis),
-      cmocka_unit_test(test_blind_projected__same_column_twice__counts_once),
-      cmocka_unit_test(test_blind_limit__position_bias__is_somewhat_above_that_of_the_mean),
-      cmocka_unit_test(test_blind_limit__other_size__is_the_same),
-      cmocka_unit_test(test_blind_limit__dead_time__grows_with_the_spacing_of_rows),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

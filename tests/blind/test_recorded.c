@@ -14,7 +14,7 @@ static blind_recorded draw(int number)
 
 /* ---- Drawing ---- */
 
-static void test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_clean_trial(void **state)
+TEST(test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_clean_trial)
 {
   int k;
   for (k = 0; k < 100; k++) {
@@ -60,7 +60,7 @@ static void assert_turbulent(const blind_recorded *r, int which)
     assert_between(g.supply_volume / chamber, 0.0199, 0.301);
 }
 
-static void test_blind_draw_recorded__many__half_of_the_lines_are_turbulent(void **state)
+TEST(test_blind_draw_recorded__many__half_of_the_lines_are_turbulent)
 {
   int lines = 0, turbulent = 0, begin = 0, k, i;
   for (k = 0; k < 4000; k++) {
@@ -83,7 +83,7 @@ static void test_blind_draw_recorded__many__half_of_the_lines_are_turbulent(void
   assert_true(begin > 0);
 }
 
-static void test_blind_draw_recorded__many__imperfections_have_their_share(void **state)
+TEST(test_blind_draw_recorded__many__imperfections_have_their_share)
 {
   enum { MANY = 4000 };
   int count[BLIND_IMPERFECTIONS] = {0}, plain = 0, k, i;
@@ -108,7 +108,7 @@ static void test_blind_draw_recorded__many__imperfections_have_their_share(void 
   assert_between((double)plain / MANY, 0.1, 0.15);
 }
 
-static void test_blind_draw_recorded__many__values_are_off_by_their_tolerance(void **state)
+TEST(test_blind_draw_recorded__many__values_are_off_by_their_tolerance)
 {
   enum { MANY = 3000 };
   double squares[BLIND_VALUES] = {0};
@@ -132,7 +132,7 @@ static void test_blind_draw_recorded__many__values_are_off_by_their_tolerance(vo
   }
 }
 
-static void test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a_twentieth(void **state)
+TEST(test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a_twentieth)
 {
   enum { MANY = 1000 };
   double squares = 0;
@@ -145,7 +145,7 @@ static void test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a
   assert_between(sqrt(squares / MANY) / 0.05, 0.84, 0.92);
 }
 
-static void test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off(void **state)
+TEST(test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off)
 {
   int k, seen = 0, more = 0;
   for (k = 0; k < 2000; k++) {
@@ -167,7 +167,7 @@ static void test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off(void **st
 }
 
 /* What is left out leaves all else as it was, but for what a loop alone can have. */
-static void test_blind_draw_recorded__without__has_none_of_it(void **state)
+TEST(test_blind_draw_recorded__without__has_none_of_it)
 {
   const unsigned of_loops = 1u << BLIND_INTEGRAL | 1u << BLIND_LONG_RAMPS;
   unsigned without;
@@ -187,7 +187,7 @@ static void test_blind_draw_recorded__without__has_none_of_it(void **state)
   }
 }
 
-static void test_blind_draw_recorded__many__half_of_the_integrals_are_not_0_at_first(void **state)
+TEST(test_blind_draw_recorded__many__half_of_the_integrals_are_not_0_at_first)
 {
   int loops = 0, worked = 0, up = 0, k;
   for (k = 0; k < 4000; k++) {
@@ -222,7 +222,7 @@ static double longest_ramp(const blind_recorded *r)
   return longest;
 }
 
-static void test_blind_draw_recorded__many__some_loops_follow_long_ramps(void **state)
+TEST(test_blind_draw_recorded__many__some_loops_follow_long_ramps)
 {
   int loops = 0, ramps = 0, back = 0, whole = 0, k;
   for (k = 0; k < 2000; k++) {
@@ -279,7 +279,7 @@ static void assert_step_is_short_enough(const char *name)
   blind_fine_free(&fine);
 }
 
-static void test_blind_run_recorded__least_turbulent_lines__are_followed_at_their_step(void **state)
+TEST(test_blind_run_recorded__least_turbulent_lines__are_followed_at_their_step)
 {
   assert_step_is_short_enough("supply_droop");
   assert_step_is_short_enough("connecting_tube");
@@ -337,7 +337,7 @@ static double slope(double t)
   return 0.05 * t;
 }
 
-static void test_blind_spoil__nothing__shows_what_is_there(void **state)
+TEST(test_blind_spoil__nothing__shows_what_is_there)
 {
   const blind_recorded r = bare();
   blind_log log = record(&r, slope);
@@ -351,7 +351,7 @@ static void test_blind_spoil__nothing__shows_what_is_there(void **state)
   blind_log_free(&log);
 }
 
-static void test_blind_spoil__filter__has_its_time_constant(void **state)
+TEST(test_blind_spoil__filter__has_its_time_constant)
 {
   blind_recorded r = bare();
   blind_log log;
@@ -368,7 +368,7 @@ static void test_blind_spoil__filter__has_its_time_constant(void **state)
   blind_log_free(&log);
 }
 
-static void test_blind_spoil__bits__are_steps_of_the_range(void **state)
+TEST(test_blind_spoil__bits__are_steps_of_the_range)
 {
   blind_recorded r = bare();
   const double quantum = 1.25 / 1024;
@@ -383,7 +383,7 @@ static void test_blind_spoil__bits__are_steps_of_the_range(void **state)
   blind_log_free(&log);
 }
 
-static void test_blind_spoil__rounding_and_jitter__move_time_and_sample(void **state)
+TEST(test_blind_spoil__rounding_and_jitter__move_time_and_sample)
 {
   blind_recorded r = bare();
   double square = 0;
@@ -430,7 +430,7 @@ static double memory_of(const double *y, size_t n)
   return next / own;
 }
 
-static void test_blind_spoil__colour__has_its_level_and_memory(void **state)
+TEST(test_blind_spoil__colour__has_its_level_and_memory)
 {
   blind_recorded r = bare();
   blind_log log;
@@ -445,7 +445,7 @@ static void test_blind_spoil__colour__has_its_level_and_memory(void **state)
   blind_log_free(&log);
 }
 
-static void test_blind_spoil__hum_and_drift__are_of_the_span(void **state)
+TEST(test_blind_spoil__hum_and_drift__are_of_the_span)
 {
   blind_recorded r = bare();
   size_t i;
@@ -462,7 +462,7 @@ static void test_blind_spoil__hum_and_drift__are_of_the_span(void **state)
   blind_log_free(&log);
 }
 
-static void test_blind_spoil__dropouts__empty_fields_missing_rows_and_a_gap(void **state)
+TEST(test_blind_spoil__dropouts__empty_fields_missing_rows_and_a_gap)
 {
   blind_recorded r = bare();
   double longest = 0;
@@ -485,7 +485,7 @@ static void test_blind_spoil__dropouts__empty_fields_missing_rows_and_a_gap(void
 
 /* ---- Files ---- */
 
-static void test_blind_write_recorded__many__are_logs_with_their_channels(void **state)
+TEST(test_blind_write_recorded__many__are_logs_with_their_channels)
 {
   static const char *const heads[BLIND_LOOPS] = {"t [s],u [1],", "t [s],u [1],sp [%],p [kPa],x [mm]",
                                                  "t [s],sp [%],p [kPa],x [mm]", "t [s],sp [%],x [mm]"};
@@ -532,7 +532,7 @@ static int plain_number(void)
 
 /* Area, forces, mass, volume and orifices grown alike do the same: area alone cannot be told but by what is known of
  * mass and volume. Orifices can, against the supply pressure. */
-static void test_blind_recorded_visible__area__is_known_by_the_tolerance_of_mass_and_volume(void **state)
+TEST(test_blind_recorded_visible__area__is_known_by_the_tolerance_of_mass_and_volume)
 {
   const int area = blind_value_named("area"), orifice = blind_value_named("orifice_area");
   const int volume = blind_value_named("dead_volume"), mass = blind_value_named("moving_mass");
@@ -548,7 +548,7 @@ static void test_blind_recorded_visible__area__is_known_by_the_tolerance_of_mass
   assert_true(v.value[orifice] > 100 * pow(fabs(1 - 1 / r.off[orifice]) / 0.2, 2));
 }
 
-static void test_blind_recorded_visible__noise_and_converter__hide(void **state)
+TEST(test_blind_recorded_visible__noise_and_converter__hide)
 {
   const int friction = blind_value_named("dry_friction");
   blind_recorded r = draw(plain_number());
@@ -567,27 +567,5 @@ static void test_blind_recorded_visible__noise_and_converter__hide(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_blind_draw_recorded__same_number__same_rig_and_effect_as_the_clean_trial),
-      cmocka_unit_test(test_blind_draw_recorded__many__half_of_the_lines_are_turbulent),
-      cmocka_unit_test(test_blind_draw_recorded__many__half_of_the_integrals_are_not_0_at_first),
-      cmocka_unit_test(test_blind_draw_recorded__many__some_loops_follow_long_ramps),
-      cmocka_unit_test(test_blind_draw_recorded__many__imperfections_have_their_share),
-      cmocka_unit_test(test_blind_draw_recorded__many__values_are_off_by_their_tolerance),
-      cmocka_unit_test(test_blind_draw_recorded__many__vents_differ_from_fill_orifices_by_a_twentieth),
-      cmocka_unit_test(test_blind_draw_recorded__beyond__is_3_to_6_tolerances_off),
-      cmocka_unit_test(test_blind_draw_recorded__without__has_none_of_it),
-      cmocka_unit_test(test_blind_run_recorded__least_turbulent_lines__are_followed_at_their_step),
-      cmocka_unit_test(test_blind_spoil__nothing__shows_what_is_there),
-      cmocka_unit_test(test_blind_spoil__filter__has_its_time_constant),
-      cmocka_unit_test(test_blind_spoil__bits__are_steps_of_the_range),
-      cmocka_unit_test(test_blind_spoil__rounding_and_jitter__move_time_and_sample),
-      cmocka_unit_test(test_blind_spoil__colour__has_its_level_and_memory),
-      cmocka_unit_test(test_blind_spoil__hum_and_drift__are_of_the_span),
-      cmocka_unit_test(test_blind_spoil__dropouts__empty_fields_missing_rows_and_a_gap),
-      cmocka_unit_test(test_blind_write_recorded__many__are_logs_with_their_channels),
-      cmocka_unit_test(test_blind_recorded_visible__area__is_known_by_the_tolerance_of_mass_and_volume),
-      cmocka_unit_test(test_blind_recorded_visible__noise_and_converter__hide),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

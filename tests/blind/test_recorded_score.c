@@ -92,7 +92,7 @@ static const struct class_case {
     {"unlisted:friction_bump", "none", "", "", {1}, BLIND_RIGHT},
 };
 
-static void test_blind_score_recorded__each_kind_of_answer__has_its_class(void **state)
+TEST(test_blind_score_recorded__each_kind_of_answer__has_its_class)
 {
   size_t i;
   for (i = 0; i < sizeof class_cases / sizeof class_cases[0]; i++) {
@@ -109,7 +109,7 @@ static void test_blind_score_recorded__each_kind_of_answer__has_its_class(void *
   }
 }
 
-static void test_blind_score_recorded__listed_as_small__is_not_overlooked(void **state)
+TEST(test_blind_score_recorded__listed_as_small__is_not_overlooked)
 {
   const blind_recorded leak = trial_with("chamber_leak");
   blind_recorded bump;
@@ -125,7 +125,7 @@ static void test_blind_score_recorded__listed_as_small__is_not_overlooked(void *
   assert_string_equal(record.class, "right");
 }
 
-static void test_blind_score_recorded__instrument_among_the_deviations__is_not_overlooked(void **state)
+TEST(test_blind_score_recorded__instrument_among_the_deviations__is_not_overlooked)
 {
   blind_recorded r = trial_with("position_bias");
   r.t.missing[0].size = -2.6e-5;
@@ -140,7 +140,7 @@ static void test_blind_score_recorded__instrument_among_the_deviations__is_not_o
 }
 
 /* A filter may be called a lag where there is one, and does not stand for what is missing. */
-static void test_blind_score_recorded__filter_called_a_lag__is_no_false_alarm(void **state)
+TEST(test_blind_score_recorded__filter_called_a_lag__is_no_false_alarm)
 {
   blind_recorded r = trial_with("");
   set_answer("effect", "pressure_lag", "");
@@ -162,7 +162,7 @@ static void test_blind_score_recorded__filter_called_a_lag__is_no_false_alarm(vo
 
 /* ---- Deviations ---- */
 
-static void test_blind_score_recorded__deviation__is_found_by_name_and_direction(void **state)
+TEST(test_blind_score_recorded__deviation__is_found_by_name_and_direction)
 {
   const int rate = blind_value_named("spring_rate"), orifice = blind_value_named("orifice_area");
   blind_recorded r = trial_with("");
@@ -188,7 +188,7 @@ static void test_blind_score_recorded__deviation__is_found_by_name_and_direction
   assert_int_equal(record.far_due, 0);
 }
 
-static void test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_its_width(void **state)
+TEST(test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_its_width)
 {
   blind_recorded r = trial_with("");
   r.off[blind_value_named("ambient_pressure")] = -10132.5;
@@ -204,7 +204,7 @@ static void test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_it
 }
 
 /* The vent passes 0.9 of what the fill orifice does: restricted by a tenth. */
-static void test_blind_score_recorded__vent__is_judged_as_a_restriction(void **state)
+TEST(test_blind_score_recorded__vent__is_judged_as_a_restriction)
 {
   blind_recorded r = trial_with("");
   r.vent = 0.9;
@@ -230,7 +230,7 @@ static void test_blind_score_recorded__vent__is_judged_as_a_restriction(void **s
 }
 
 /* What narrows it further is an effect, and due by its name; what is said of the vent is of both. */
-static void test_blind_score_recorded__vent_that_is_missing__is_not_due_as_a_value(void **state)
+TEST(test_blind_score_recorded__vent_that_is_missing__is_not_due_as_a_value)
 {
   blind_recorded r = trial_with("vent_restriction");
   r.t.missing[0].size = 0.2;
@@ -248,7 +248,7 @@ static void test_blind_score_recorded__vent_that_is_missing__is_not_due_as_a_val
 
 /* ---- Onset ---- */
 
-static void test_blind_score_recorded__onset__counts_where_what_begins_was_named(void **state)
+TEST(test_blind_score_recorded__onset__counts_where_what_begins_was_named)
 {
   blind_recorded r = trial_with("chamber_leak");
   r.onset = 12;
@@ -269,7 +269,7 @@ static void test_blind_score_recorded__onset__counts_where_what_begins_was_named
   assert_int_equal(record.onset_within, 0);
 }
 
-static void test_blind_score_recorded__onset_of_a_value__is_that_of_its_deviation(void **state)
+TEST(test_blind_score_recorded__onset_of_a_value__is_that_of_its_deviation)
 {
   const int supply = blind_value_named("supply_pressure");
   blind_recorded r = trial_with("");
@@ -289,7 +289,7 @@ static void test_blind_score_recorded__onset_of_a_value__is_that_of_its_deviatio
 
 /* ---- Reports, records, the page ---- */
 
-static void test_blind_answer_read__deviations_and_onset__are_taken(void **state)
+TEST(test_blind_answer_read__deviations_and_onset__are_taken)
 {
   static const char report[] =
       "{\"verdict\": \"effect\", \"condition\": \"deviates\", \"found\": [{\"effect\": \"chamber_leak\","
@@ -313,7 +313,7 @@ static void test_blind_answer_read__deviations_and_onset__are_taken(void **state
   assert_close(answer.deviation[1].high, -0.05, 0, 0);
 }
 
-static void test_blind_record_read__recorded__is_what_was_written(void **state)
+TEST(test_blind_record_read__recorded__is_what_was_written)
 {
   const blind_recorded r = trial_with("chamber_leak+dead_time");
   blind_record back;
@@ -335,7 +335,7 @@ static void test_blind_record_read__recorded__is_what_was_written(void **state)
   free(again);
 }
 
-static void test_blind_recorded_summary_write__counts__and_lists_what_is_not_right(void **state)
+TEST(test_blind_recorded_summary_write__counts__and_lists_what_is_not_right)
 {
   blind_recorded r = trial_with("chamber_leak");
   blind_record records[3];
@@ -370,7 +370,7 @@ static void test_blind_recorded_summary_write__counts__and_lists_what_is_not_rig
 }
 
 /* A second run takes the log that the first left, unless it is of another trial. */
-static void test_blind_prepare__same_trial__keeps_its_files(void **state)
+TEST(test_blind_prepare__same_trial__keeps_its_files)
 {
   blind_recorded r;
   blind_visible first, second;
@@ -393,21 +393,5 @@ static void test_blind_prepare__same_trial__keeps_its_files(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_blind_score_recorded__each_kind_of_answer__has_its_class),
-      cmocka_unit_test(test_blind_score_recorded__listed_as_small__is_not_overlooked),
-      cmocka_unit_test(test_blind_score_recorded__instrument_among_the_deviations__is_not_overlooked),
-      cmocka_unit_test(test_blind_score_recorded__filter_called_a_lag__is_no_false_alarm),
-      cmocka_unit_test(test_blind_score_recorded__deviation__is_found_by_name_and_direction),
-      cmocka_unit_test(test_blind_score_recorded__stated_interval__is_wrong_beyond_twice_its_width),
-      cmocka_unit_test(test_blind_score_recorded__vent__is_judged_as_a_restriction),
-      cmocka_unit_test(test_blind_score_recorded__vent_that_is_missing__is_not_due_as_a_value),
-      cmocka_unit_test(test_blind_score_recorded__onset__counts_where_what_begins_was_named),
-      cmocka_unit_test(test_blind_score_recorded__onset_of_a_value__is_that_of_its_deviation),
-      cmocka_unit_test(test_blind_answer_read__deviations_and_onset__are_taken),
-      cmocka_unit_test(test_blind_record_read__recorded__is_what_was_written),
-      cmocka_unit_test(test_blind_recorded_summary_write__counts__and_lists_what_is_not_right),
-      cmocka_unit_test(test_blind_prepare__same_trial__keeps_its_files),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -23,7 +23,7 @@ static const char report[] =
     "  {\"effect\": \"chamber_leak\", \"statistic\": 80.5}],"
     " \"significant_but_small\": [\"dead_time\"]}";
 
-static void test_blind_answer_read__whole_report__every_field_is_taken(void **state)
+TEST(test_blind_answer_read__whole_report__every_field_is_taken)
 {
   assert_int_equal(blind_answer_read(scratch_text("report.json", report), &answer, &error), LAB_OK);
   assert_string_equal(answer.verdict, "effect");
@@ -44,7 +44,7 @@ static void test_blind_answer_read__whole_report__every_field_is_taken(void **st
   assert_true(isnan(answer.holdout_before));
 }
 
-static void test_blind_answer_read__no_verdict__is_refused(void **state)
+TEST(test_blind_answer_read__no_verdict__is_refused)
 {
   assert_int_equal(blind_answer_read(scratch_text("a.json", "{\"found\": []}"), &answer, &error), LAB_DATA);
   assert_contains(error.text, "no verdict");
@@ -96,7 +96,7 @@ static const struct score_case {
     {BLIND_UNLISTED, "unlisted:friction_bump", "effect", "stribeck_friction", "", 1, 0, 0, 0},
 };
 
-static void test_blind_score__each_kind_of_answer__has_its_score(void **state)
+TEST(test_blind_score__each_kind_of_answer__has_its_score)
 {
   const double limit[] = {1, 2};
   size_t i;
@@ -114,7 +114,7 @@ static void test_blind_score__each_kind_of_answer__has_its_score(void **state)
   }
 }
 
-static void test_blind_score__listed_free_term__is_stated_in_its_equation(void **state)
+TEST(test_blind_score__listed_free_term__is_stated_in_its_equation)
 {
   const double limit[] = {1};
   const blind_trial t = trial_with(BLIND_UNLISTED, "unlisted:friction_bump");
@@ -133,7 +133,7 @@ static void test_blind_score__listed_free_term__is_stated_in_its_equation(void *
   assert_close(record.stated, 0, 0, 0);
 }
 
-static void test_blind_score__size_over_limit__is_the_least_of_a_pair(void **state)
+TEST(test_blind_score__size_over_limit__is_the_least_of_a_pair)
 {
   const double limit[] = {1, 2};
   const blind_trial t = trial_with(BLIND_PAIR, "chamber_leak+dead_time");
@@ -143,7 +143,7 @@ static void test_blind_score__size_over_limit__is_the_least_of_a_pair(void **sta
   assert_contains(record.why, "below twice the information limit");
 }
 
-static void test_blind_score__own_candidate__has_its_rank_among_effects(void **state)
+TEST(test_blind_score__own_candidate__has_its_rank_among_effects)
 {
   const double limit[] = {1};
   const blind_trial t = trial_with(BLIND_SINGLE, "chamber_leak");
@@ -166,7 +166,7 @@ static const char *fake(const char *name, const char *script)
   return path;
 }
 
-static void test_blind_ask__report_failure_and_endless_run__are_answers(void **state)
+TEST(test_blind_ask__report_failure_and_endless_run__are_answers)
 {
   char folder[600], script[1500];
   snprintf(folder, sizeof folder, "%s", scratch_path("asked"));
@@ -208,7 +208,7 @@ static blind_record sample_record(int trial, const char *verdict, const char *fo
   return record;
 }
 
-static void test_blind_record_read__what_was_written__is_the_same(void **state)
+TEST(test_blind_record_read__what_was_written__is_the_same)
 {
   const blind_record r = sample_record(12, "effect", "supply_droop:chamber_leak");
   char *line = line_of(&r, 0), *again;
@@ -224,7 +224,7 @@ static void test_blind_record_read__what_was_written__is_the_same(void **state)
   free(again);
 }
 
-static void test_blind_record_read__line_cut_anywhere__is_refused(void **state)
+TEST(test_blind_record_read__line_cut_anywhere__is_refused)
 {
   const blind_record r = sample_record(12, "none", "");
   char *line = line_of(&r, 0);
@@ -237,7 +237,7 @@ static void test_blind_record_read__line_cut_anywhere__is_refused(void **state)
   free(line);
 }
 
-static void test_blind_journal__stopped_in_a_line__goes_on_after_the_last_whole_one(void **state)
+TEST(test_blind_journal__stopped_in_a_line__goes_on_after_the_last_whole_one)
 {
   const char *path = scratch_path("journal.csv");
   const blind_record first = sample_record(3, "none", ""), second = sample_record(1, "effect", "chamber_leak");
@@ -267,7 +267,7 @@ static void test_blind_journal__stopped_in_a_line__goes_on_after_the_last_whole_
 
 /* ---- Counts ---- */
 
-static void test_blind_wilson__ends_and_middle__are_the_closed_forms(void **state)
+TEST(test_blind_wilson__ends_and_middle__are_the_closed_forms)
 {
   const double z2 = 1.959963984540054 * 1.959963984540054;
   const blind_count none = {0, 20}, every = {20, 20}, half = {5, 10}, nothing = {0, 0};
@@ -286,7 +286,7 @@ static void test_blind_wilson__ends_and_middle__are_the_closed_forms(void **stat
   assert_close(high, 1, 0, 0);
 }
 
-static void test_blind_quantile__few_values__between_by_lines(void **state)
+TEST(test_blind_quantile__few_values__between_by_lines)
 {
   double v[] = {5, 1, 3}, one[] = {7};
   assert_close(blind_quantile(v, 3, 0.5), 3, 0, 0);
@@ -295,7 +295,7 @@ static void test_blind_quantile__few_values__between_by_lines(void **state)
 }
 
 /* Found from 4 on but for one of ten: the isotonic fit over 4 .. 13 is 0.9. */
-static void test_blind_nine_in_ten__one_of_ten_missed__is_still_nine(void **state)
+TEST(test_blind_nine_in_ten__one_of_ten_missed__is_still_nine)
 {
   blind_sized v[13];
   int i;
@@ -311,7 +311,7 @@ static void test_blind_nine_in_ten__one_of_ten_missed__is_still_nine(void **stat
 
 /* ---- Summary ---- */
 
-static void test_blind_bar_word__counts__by_share_and_interval(void **state)
+TEST(test_blind_bar_word__counts__by_share_and_interval)
 {
   static const struct {
     int at_least;
@@ -337,7 +337,7 @@ static blind_count bar_of_stated(const blind_record *r, int n)
   return blind_bar_counts(&blind_bars[1], r, n);
 }
 
-static void test_blind_bar_counts__right_names__counts_trials_above_twice_the_limit(void **state)
+TEST(test_blind_bar_counts__right_names__counts_trials_above_twice_the_limit)
 {
   blind_record r[3] = {sample_record(0, "effect", "chamber_leak"), sample_record(1, "none", ""),
                        sample_record(2, "none", "")};
@@ -348,7 +348,7 @@ static void test_blind_bar_counts__right_names__counts_trials_above_twice_the_li
   assert_int_equal(bar_of_stated(r, 3).n, 1);
 }
 
-static void test_blind_summary_write__misses__are_listed_one_by_one(void **state)
+TEST(test_blind_summary_write__misses__are_listed_one_by_one)
 {
   const blind_record r[3] = {sample_record(4, "effect", "chamber_leak"), sample_record(5, "none", ""),
                              sample_record(6, "effect", "dead_time")};
@@ -367,23 +367,5 @@ static void test_blind_summary_write__misses__are_listed_one_by_one(void **state
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_blind_answer_read__whole_report__every_field_is_taken),
-      cmocka_unit_test(test_blind_answer_read__no_verdict__is_refused),
-      cmocka_unit_test(test_blind_score__each_kind_of_answer__has_its_score),
-      cmocka_unit_test(test_blind_score__listed_free_term__is_stated_in_its_equation),
-      cmocka_unit_test(test_blind_score__size_over_limit__is_the_least_of_a_pair),
-      cmocka_unit_test(test_blind_score__own_candidate__has_its_rank_among_effects),
-      cmocka_unit_test(test_blind_ask__report_failure_and_endless_run__are_answers),
-      cmocka_unit_test(test_blind_record_read__what_was_written__is_the_same),
-      cmocka_unit_test(test_blind_record_read__line_cut_anywhere__is_refused),
-      cmocka_unit_test(test_blind_journal__stopped_in_a_line__goes_on_after_the_last_whole_one),
-      cmocka_unit_test(test_blind_wilson__ends_and_middle__are_the_closed_forms),
-      cmocka_unit_test(test_blind_quantile__few_values__between_by_lines),
-      cmocka_unit_test(test_blind_nine_in_ten__one_of_ten_missed__is_still_nine),
-      cmocka_unit_test(test_blind_bar_word__counts__by_share_and_interval),
-      cmocka_unit_test(test_blind_bar_counts__right_names__counts_trials_above_twice_the_limit),
-      cmocka_unit_test(test_blind_summary_write__misses__are_listed_one_by_one),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

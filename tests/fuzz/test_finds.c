@@ -44,21 +44,17 @@ static int replay_folder(const char *folder)
   return n;
 }
 
-static void test_finds__replayed__keep_the_readers_promises(void **state)
+TEST(test_finds__replayed__keep_the_readers_promises)
 {
   assert_true(replay_folder("tests/fuzz/finds") > 0);
 }
 
-static void test_seeds__replayed__keep_the_readers_promises(void **state)
+TEST(test_seeds__replayed__keep_the_readers_promises)
 {
   assert_true(replay_folder("tests/fuzz/seeds") >= FUZZ_TARGETS);
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_finds__replayed__keep_the_readers_promises),
-      cmocka_unit_test(test_seeds__replayed__keep_the_readers_promises),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -133,7 +133,7 @@ static void check_run(const pneu_params *p, int gas, int flow)
   check_model(&m);
 }
 
-static void test_pneu_run__each_actuator_and_law__keeps_mass_and_energy(void **state)
+TEST(test_pneu_run__each_actuator_and_law__keeps_mass_and_energy)
 {
   int actuator, gas, flow;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
@@ -147,7 +147,7 @@ static void test_pneu_run__each_actuator_and_law__keeps_mass_and_energy(void **s
       }
 }
 
-static void test_pneu_run__swept_ratio_and_other_index__keeps_mass_and_energy(void **state)
+TEST(test_pneu_run__swept_ratio_and_other_index__keeps_mass_and_energy)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   p.swept_ratio = (pneu_real)0.85;
@@ -184,40 +184,40 @@ static void check_effect(const char *name)
   check_effect_without(name, NULL);
 }
 
-static void test_chamber_exponent__run__keeps_mass_and_energy(void **state)
+TEST(test_chamber_exponent__run__keeps_mass_and_energy)
 {
   check_effect("chamber_exponent");
 }
 
-static void test_chamber_leak__run__keeps_mass_and_energy(void **state)
+TEST(test_chamber_leak__run__keeps_mass_and_energy)
 {
   check_effect("chamber_leak");
 }
 
-static void test_choked_flow__run__keeps_mass_and_energy(void **state)
+TEST(test_choked_flow__run__keeps_mass_and_energy)
 {
   check_effect("choked_flow");
 }
 
-static void test_heat_transfer__run__keeps_mass_and_energy(void **state)
+TEST(test_heat_transfer__run__keeps_mass_and_energy)
 {
   check_effect("heat_transfer");
 }
 
-static void test_connecting_tube__run__keeps_mass_and_energy(void **state)
+TEST(test_connecting_tube__run__keeps_mass_and_energy)
 {
   check_effect("connecting_tube");
 }
 
 /* With a volume at the transducer, and in series with it. */
-static void test_supply_droop__run__keeps_mass_and_energy(void **state)
+TEST(test_supply_droop__run__keeps_mass_and_energy)
 {
   check_effect("supply_droop");
   check_effect_without("supply_droop", "supply_volume");
 }
 
 /* What a resistance lets into the volume behind it is there, in the chamber or gone through the vent. */
-static void test_supply_droop__volume__keeps_mass(void **state)
+TEST(test_supply_droop__volume__keeps_mass)
 {
   const double R = 2e8, V = 5e-5;
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -244,23 +244,23 @@ static void test_supply_droop__volume__keeps_mass(void **state)
   }
 }
 
-static void test_transducer_lag__run__keeps_mass_and_energy(void **state)
+TEST(test_transducer_lag__run__keeps_mass_and_energy)
 {
   check_effect("transducer_lag");
 }
 
-static void test_vent_restriction__run__keeps_mass_and_energy(void **state)
+TEST(test_vent_restriction__run__keeps_mass_and_energy)
 {
   check_effect("vent_restriction");
 }
 
-static void test_stribeck_friction__run__keeps_mass_and_energy(void **state)
+TEST(test_stribeck_friction__run__keeps_mass_and_energy)
 {
   check_effect("stribeck_friction");
 }
 
 /* A force over position gives back at the lower stop what it took. */
-static void test_free_terms__run__keep_mass_and_energy(void **state)
+TEST(test_free_terms__run__keep_mass_and_energy)
 {
   static const pneu_term term[] = {
       {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 5, 0, (pneu_real)0.02, {0, 50, 300, -100, 0}},
@@ -279,20 +279,5 @@ static void test_free_terms__run__keep_mass_and_energy(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_run__each_actuator_and_law__keeps_mass_and_energy),
-      cmocka_unit_test(test_pneu_run__swept_ratio_and_other_index__keeps_mass_and_energy),
-      cmocka_unit_test(test_chamber_exponent__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_chamber_leak__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_choked_flow__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_heat_transfer__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_connecting_tube__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_supply_droop__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_supply_droop__volume__keeps_mass),
-      cmocka_unit_test(test_transducer_lag__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_vent_restriction__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_stribeck_friction__run__keeps_mass_and_energy),
-      cmocka_unit_test(test_free_terms__run__keep_mass_and_energy),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

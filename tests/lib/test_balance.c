@@ -19,7 +19,7 @@ static double balance(const pneu_params *p, double x, double force, int directio
   return (double)pneu_balance_pressure(&m, (pneu_real)x, &input, direction);
 }
 
-static void test_pneu_balance_pressure__base_model__is_spring_load_and_friction_over_area(void **state)
+TEST(test_pneu_balance_pressure__base_model__is_spring_load_and_friction_over_area)
 {
   static const double place[] = {0, 0.007, 0.02}, force[] = {0, 150, -4000};
   const pneu_params p = loaded(NULL, 0);
@@ -33,13 +33,13 @@ static void test_pneu_balance_pressure__base_model__is_spring_load_and_friction_
       }
 }
 
-static void test_pneu_balance_pressure__load_that_pulls__is_below_vacuum(void **state)
+TEST(test_pneu_balance_pressure__load_that_pulls__is_below_vacuum)
 {
   const pneu_params p = loaded(NULL, 0);
   assert_close(balance(&p, 0, -20000, 0), (4e5 * 0.01 + 300 - 20000) / 0.04, TOL(1e-9, 0.5), 0);
 }
 
-static void test_pneu_balance_pressure__each_effect_on_forces__counts(void **state)
+TEST(test_pneu_balance_pressure__each_effect_on_forces__counts)
 {
   static const double x = 0.015, spring = 4e5 * 0.025 + 300, A = 0.04, F = 480;
   const struct closed_form {
@@ -59,7 +59,7 @@ static void test_pneu_balance_pressure__each_effect_on_forces__counts(void **sta
   }
 }
 
-static void test_pneu_balance_pressure__seals_that_hold_whatever_the_pressure__has_none(void **state)
+TEST(test_pneu_balance_pressure__seals_that_hold_whatever_the_pressure__has_none)
 {
   const pneu_params p = loaded("friction_per_pressure", 0.05);
   assert_true(isnan(balance(&p, 0.01, 0, 1)));
@@ -80,7 +80,7 @@ static double leaves_at(const pneu_model *m, double x, int direction)
   return e.p[0];
 }
 
-static void test_pneu_balance_pressure__each_effect_of_usual_size__is_where_a_stem_at_rest_breaks_away(void **state)
+TEST(test_pneu_balance_pressure__each_effect_of_usual_size__is_where_a_stem_at_rest_breaks_away)
 {
   static const double x = 0.01;
   int e, direction;
@@ -105,12 +105,5 @@ static void test_pneu_balance_pressure__each_effect_of_usual_size__is_where_a_st
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_balance_pressure__base_model__is_spring_load_and_friction_over_area),
-      cmocka_unit_test(test_pneu_balance_pressure__load_that_pulls__is_below_vacuum),
-      cmocka_unit_test(test_pneu_balance_pressure__each_effect_on_forces__counts),
-      cmocka_unit_test(test_pneu_balance_pressure__seals_that_hold_whatever_the_pressure__has_none),
-      cmocka_unit_test(test_pneu_balance_pressure__each_effect_of_usual_size__is_where_a_stem_at_rest_breaks_away),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

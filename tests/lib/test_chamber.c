@@ -21,7 +21,7 @@ static double absolute(const pneu_params *p, const pneu_state *s)
 
 /* ---- vessels ---- */
 
-static void test_pneu_run__choked_isothermal_blowdown__is_exponential(void **state)
+TEST(test_pneu_run__choked_isothermal_blowdown__is_exponential)
 {
   static const int laws[] = {PNEU_FLOW_CHOKED, PNEU_FLOW_ISO6358};
   pneu_params p = fixture_vessel(2e-3);
@@ -40,7 +40,7 @@ static void test_pneu_run__choked_isothermal_blowdown__is_exponential(void **sta
   }
 }
 
-static void test_pneu_run__choked_adiabatic_blowdown__follows_the_power_law(void **state)
+TEST(test_pneu_run__choked_adiabatic_blowdown__follows_the_power_law)
 {
   static const int gases[] = {PNEU_GAS_ENERGY, PNEU_GAS_POLYTROPIC};
   pneu_params p = fixture_vessel(2e-3);
@@ -59,7 +59,7 @@ static void test_pneu_run__choked_adiabatic_blowdown__follows_the_power_law(void
 }
 
 /* Eq. 8 with p_up constant: the root of p_up - p falls in proportion to time. */
-static void test_pneu_run__isothermal_fill_by_paper_law__pressure_is_quadratic_in_time(void **state)
+TEST(test_pneu_run__isothermal_fill_by_paper_law__pressure_is_quadratic_in_time)
 {
   pneu_params p = fixture_vessel(1e-3);
   const double R = gas_constant(&p), T = (double)p.ambient_temperature, pu = 4e5 + (double)p.ambient_pressure;
@@ -74,7 +74,7 @@ static void test_pneu_run__isothermal_fill_by_paper_law__pressure_is_quadratic_i
 }
 
 /* Eq. 8 with p_down constant: p = p_a (1 + cosh(c - k t))/2. */
-static void test_pneu_run__isothermal_vent_by_paper_law__follows_the_hyperbolic_cosine(void **state)
+TEST(test_pneu_run__isothermal_vent_by_paper_law__follows_the_hyperbolic_cosine)
 {
   pneu_params p = fixture_vessel(1e-3);
   const double R = gas_constant(&p), T = (double)p.ambient_temperature, pa = (double)p.ambient_pressure;
@@ -88,7 +88,7 @@ static void test_pneu_run__isothermal_vent_by_paper_law__follows_the_hyperbolic_
 }
 
 /* First law for a rigid vessel: m c_v T - m_0 c_v T_0 = (m - m_0) c_p T_s. */
-static void test_pneu_run__adiabatic_fill__keeps_the_first_law(void **state)
+TEST(test_pneu_run__adiabatic_fill__keeps_the_first_law)
 {
   pneu_params p = fixture_vessel(1e-3);
   const double g = (double)p.heat_ratio, pa = (double)p.ambient_pressure, p0 = 2e4, T0 = 298.15, Ts = 350;
@@ -105,7 +105,7 @@ static void test_pneu_run__adiabatic_fill__keeps_the_first_law(void **state)
   assert_true(absolute(&p, &rig.s) > 3e5);
 }
 
-static void test_pneu_run__adiabatic_fill_of_a_near_vacuum__ends_near_gamma_times_supply_temperature(void **state)
+TEST(test_pneu_run__adiabatic_fill_of_a_near_vacuum__ends_near_gamma_times_supply_temperature)
 {
   pneu_params p = fixture_vessel(1e-3);
   fixture_rig rig =
@@ -115,7 +115,7 @@ static void test_pneu_run__adiabatic_fill_of_a_near_vacuum__ends_near_gamma_time
   assert_close(rig.s.T, (double)p.heat_ratio * 298.15, 0, 1e-3);
 }
 
-static void test_pneu_run__long_after__ends_at_supply_and_at_ambient_pressure(void **state)
+TEST(test_pneu_run__long_after__ends_at_supply_and_at_ambient_pressure)
 {
   const pneu_params p = fixture_vessel(1e-4);
   int gas, flow;
@@ -133,7 +133,7 @@ static void test_pneu_run__long_after__ends_at_supply_and_at_ambient_pressure(vo
 }
 
 /* A long step must not leap over the point of equal pressures. */
-static void test_pneu_run__loose_tolerance__pressure_keeps_within_supply_and_ambient(void **state)
+TEST(test_pneu_run__loose_tolerance__pressure_keeps_within_supply_and_ambient)
 {
   static fixture_sample s[2001];
   static const double volume[] = {1e-6, 1e-5, 1e-4, 1e-3}, tol[] = {1e-3, 1e-4, 1e-5};
@@ -187,7 +187,7 @@ static double expand(const pneu_model *m, double time, pneu_state *s)
   return absolute(&m->p, s) / p0;
 }
 
-static void test_pneu_run__moved_shut_chamber__keeps_p_times_volume_to_the_n(void **state)
+TEST(test_pneu_run__moved_shut_chamber__keeps_p_times_volume_to_the_n)
 {
   static const double n[] = {1, 1.1, 1.25, 1.4, 1.6};
   int i;
@@ -200,7 +200,7 @@ static void test_pneu_run__moved_shut_chamber__keeps_p_times_volume_to_the_n(voi
   }
 }
 
-static void test_pneu_run__moved_shut_chamber__energy_law_is_adiabatic_and_isothermal_law_boyle(void **state)
+TEST(test_pneu_run__moved_shut_chamber__energy_law_is_adiabatic_and_isothermal_law_boyle)
 {
   const pneu_model energy = moved(PNEU_GAS_ENERGY, 1.2), isothermal = moved(PNEU_GAS_ISOTHERMAL, 1.2);
   pneu_state s;
@@ -210,7 +210,7 @@ static void test_pneu_run__moved_shut_chamber__energy_law_is_adiabatic_and_isoth
   assert_close(s.T, 298.15, 0, TOL(1e-15, 1e-7));
 }
 
-static void test_pneu_run__moved_shut_chamber__keeps_its_mass(void **state)
+TEST(test_pneu_run__moved_shut_chamber__keeps_its_mass)
 {
   int gas;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
@@ -222,7 +222,7 @@ static void test_pneu_run__moved_shut_chamber__keeps_its_mass(void **state)
   }
 }
 
-static void test_pneu_run__swept_ratio_zero__movement_leaves_the_pressure(void **state)
+TEST(test_pneu_run__swept_ratio_zero__movement_leaves_the_pressure)
 {
   pneu_params p = moved(PNEU_GAS_ENERGY, 1.4).p;
   pneu_model m;
@@ -242,7 +242,7 @@ static double work(const fixture_sample *s, int n, double area, double pa)
   return sum;
 }
 
-static void test_pneu_run__isothermal_pumping__takes_the_logarithmic_work(void **state)
+TEST(test_pneu_run__isothermal_pumping__takes_the_logarithmic_work)
 {
   static fixture_sample s[101];
   const pneu_model m = moved(PNEU_GAS_ISOTHERMAL, 1.4);
@@ -262,7 +262,7 @@ static void test_pneu_run__isothermal_pumping__takes_the_logarithmic_work(void *
 
 /* ---- limits of the film ---- */
 
-static void test_pneu_run__film_resistance_to_zero__is_isothermal(void **state)
+TEST(test_pneu_run__film_resistance_to_zero__is_isothermal)
 {
   pneu_params p = moved(PNEU_GAS_ISOTHERMAL, 1.4).p;
   double apart = 1;
@@ -282,7 +282,7 @@ static void test_pneu_run__film_resistance_to_zero__is_isothermal(void **state)
   assert_between(apart, 0, TOL(1e-5, 1e-3));
 }
 
-static void test_pneu_run__film_conductance_to_infinity__is_isothermal(void **state)
+TEST(test_pneu_run__film_conductance_to_infinity__is_isothermal)
 {
   pneu_params p = moved(PNEU_GAS_ENERGY, 1.4).p;
   pneu_model m;
@@ -294,7 +294,7 @@ static void test_pneu_run__film_conductance_to_infinity__is_isothermal(void **st
   assert_close(s.T, 298.15, 0, TOL(1e-5, 2e-3));
 }
 
-static void test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_gamma(void **state)
+TEST(test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_gamma)
 {
   static fixture_sample a[320], b[320];
   fixture_sample *out[2];
@@ -317,7 +317,7 @@ static void test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_
   }
 }
 
-static void test_pneu_run__film_between__lies_between_isothermal_and_adiabatic(void **state)
+TEST(test_pneu_run__film_between__lies_between_isothermal_and_adiabatic)
 {
   static const double G[] = {0.1, 0.5, 2, 10};
   pneu_params p = moved(PNEU_GAS_ENERGY, 1.4).p;
@@ -338,7 +338,7 @@ static void test_pneu_run__film_between__lies_between_isothermal_and_adiabatic(v
 
 /* ---- parts ---- */
 
-static void test_pneu_volume__along_the_stroke__is_dead_volume_and_swept(void **state)
+TEST(test_pneu_volume__along_the_stroke__is_dead_volume_and_swept)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
@@ -348,7 +348,7 @@ static void test_pneu_volume__along_the_stroke__is_dead_volume_and_swept(void **
   assert_close(pneu_volume(&m, (pneu_real)0.01), 2e-6 + 0.8 * 0.04 * 0.01, 0, TOL(1e-14, 1e-6));
 }
 
-static void test_pneu_mass__each_law__is_pv_over_rt(void **state)
+TEST(test_pneu_mass__each_law__is_pv_over_rt)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const double pa = (double)p.ambient_pressure, V = 2e-6 + 0.04 * 0.005, R = gas_constant(&p);
@@ -363,7 +363,7 @@ static void test_pneu_mass__each_law__is_pv_over_rt(void **state)
   }
 }
 
-static void test_pneu_run__pressure_input__follows_the_straight_line(void **state)
+TEST(test_pneu_run__pressure_input__follows_the_straight_line)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   int gas;
@@ -376,7 +376,7 @@ static void test_pneu_run__pressure_input__follows_the_straight_line(void **stat
   }
 }
 
-static void test_pneu_state_rest__outside_the_domain__is_refused(void **state)
+TEST(test_pneu_state_rest__outside_the_domain__is_refused)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
@@ -394,7 +394,7 @@ static void test_pneu_state_rest__outside_the_domain__is_refused(void **state)
   assert_int_equal(pneu_state_rest(&m, (pneu_real)-1e5, 250, p.stroke, &input, &s), PNEU_OK);
 }
 
-static void test_pneu_rhs__state_outside_the_domain__asks_for_a_smaller_step(void **state)
+TEST(test_pneu_rhs__state_outside_the_domain__asks_for_a_smaller_step)
 {
   static const double bad[][3] = {{-2e5, 300, 0.01}, {NAN, 300, 0.01}, {0, -1, 0.01}, {0, NAN, 0.01}, {0, 300, -0.01}};
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 1e5, 0.01);
@@ -415,29 +415,5 @@ static void test_pneu_rhs__state_outside_the_domain__asks_for_a_smaller_step(voi
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_run__choked_isothermal_blowdown__is_exponential),
-      cmocka_unit_test(test_pneu_run__choked_adiabatic_blowdown__follows_the_power_law),
-      cmocka_unit_test(test_pneu_run__isothermal_fill_by_paper_law__pressure_is_quadratic_in_time),
-      cmocka_unit_test(test_pneu_run__isothermal_vent_by_paper_law__follows_the_hyperbolic_cosine),
-      cmocka_unit_test(test_pneu_run__adiabatic_fill__keeps_the_first_law),
-      cmocka_unit_test(test_pneu_run__adiabatic_fill_of_a_near_vacuum__ends_near_gamma_times_supply_temperature),
-      cmocka_unit_test(test_pneu_run__long_after__ends_at_supply_and_at_ambient_pressure),
-      cmocka_unit_test(test_pneu_run__loose_tolerance__pressure_keeps_within_supply_and_ambient),
-      cmocka_unit_test(test_pneu_run__moved_shut_chamber__keeps_p_times_volume_to_the_n),
-      cmocka_unit_test(test_pneu_run__moved_shut_chamber__energy_law_is_adiabatic_and_isothermal_law_boyle),
-      cmocka_unit_test(test_pneu_run__moved_shut_chamber__keeps_its_mass),
-      cmocka_unit_test(test_pneu_run__swept_ratio_zero__movement_leaves_the_pressure),
-      cmocka_unit_test(test_pneu_run__isothermal_pumping__takes_the_logarithmic_work),
-      cmocka_unit_test(test_pneu_run__film_resistance_to_zero__is_isothermal),
-      cmocka_unit_test(test_pneu_run__film_conductance_to_infinity__is_isothermal),
-      cmocka_unit_test(test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_gamma),
-      cmocka_unit_test(test_pneu_run__film_between__lies_between_isothermal_and_adiabatic),
-      cmocka_unit_test(test_pneu_volume__along_the_stroke__is_dead_volume_and_swept),
-      cmocka_unit_test(test_pneu_mass__each_law__is_pv_over_rt),
-      cmocka_unit_test(test_pneu_run__pressure_input__follows_the_straight_line),
-      cmocka_unit_test(test_pneu_state_rest__outside_the_domain__is_refused),
-      cmocka_unit_test(test_pneu_rhs__state_outside_the_domain__asks_for_a_smaller_step),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -54,7 +54,7 @@ static void assert_alike(const loop *a, const loop *b, double p, double x)
   assert_close(a->state.x, b->state.x, x, 0);
 }
 
-static void test_pneu_run_and_step__dead_time_without_a_line__are_refused_and_change_nothing(void **state)
+TEST(test_pneu_run_and_step__dead_time_without_a_line__are_refused_and_change_nothing)
 {
   loop l;
   pneu_state before;
@@ -67,7 +67,7 @@ static void test_pneu_run_and_step__dead_time_without_a_line__are_refused_and_ch
   assert_memory_equal(&l.state, &before, sizeof before);
 }
 
-static void test_pneu_run_and_step__line_without_dead_time__change_not_a_bit(void **state)
+TEST(test_pneu_run_and_step__line_without_dead_time__change_not_a_bit)
 {
   loop a, b;
   int i;
@@ -84,7 +84,7 @@ static void test_pneu_run_and_step__line_without_dead_time__change_not_a_bit(voi
 }
 
 /* Three commands, the second shorter than the dead time: as a prompt model does that gets each one later. */
-static void test_pneu_run__dead_time__is_that_of_a_prompt_model_with_late_commands(void **state)
+TEST(test_pneu_run__dead_time__is_that_of_a_prompt_model_with_late_commands)
 {
   static const double u[] = {1, -1, 0.5}, duration[] = {0.5, 0.03, 1.0};
   loop late, prompt;
@@ -102,7 +102,7 @@ static void test_pneu_run__dead_time__is_that_of_a_prompt_model_with_late_comman
 }
 
 /* Past a positioner the line delays an opening as without one; a set position needs no line. */
-static void test_pneu_run__dead_time_beside_a_positioner__is_the_lines_only_for_openings(void **state)
+TEST(test_pneu_run__dead_time_beside_a_positioner__is_the_lines_only_for_openings)
 {
   loop beside, alone;
   fixture_need("dead_time");
@@ -120,7 +120,7 @@ static void test_pneu_run__dead_time_beside_a_positioner__is_the_lines_only_for_
 
 /* A loop of 1 kHz whose dead time ends within a step, against runs; what reads off a state sees the command that acts.
  */
-static void test_pneu_step__dead_time__commands_act_to_the_instant(void **state)
+TEST(test_pneu_step__dead_time__commands_act_to_the_instant)
 {
   const double dead_time = 0.0205;
   loop late, prompt;
@@ -143,7 +143,7 @@ static void test_pneu_step__dead_time__commands_act_to_the_instant(void **state)
 
 /* Too many changes within the dead time: said, and neither state nor line is another. With the room that is documented
  * there are never too many. */
-static void test_pneu_step__no_room_for_a_command__says_so_and_changes_nothing(void **state)
+TEST(test_pneu_step__no_room_for_a_command__says_so_and_changes_nothing)
 {
   loop l, before;
   int i;
@@ -166,7 +166,7 @@ static void test_pneu_step__no_room_for_a_command__says_so_and_changes_nothing(v
 /* ---- The line alone ---- */
 
 /* A million changes, one in each millisecond: each acts after the delay, in single precision too. */
-static void test_pneu_delay__many_changes__no_time_is_lost(void **state)
+TEST(test_pneu_delay__many_changes__no_time_is_lost)
 {
   enum { TURNS = 1000000, BEHIND = 20 };
   pneu_late slot[SLOTS];
@@ -183,7 +183,7 @@ static void test_pneu_delay__many_changes__no_time_is_lost(void **state)
 }
 
 /* A length that changes does not change the order. */
-static void test_pneu_delay_give__shorter_than_before__keeps_the_order(void **state)
+TEST(test_pneu_delay_give__shorter_than_before__keeps_the_order)
 {
   pneu_late slot[SLOTS];
   pneu_delay d;
@@ -227,14 +227,14 @@ static void check_followed(double length, double dt)
   assert_close(pneu_delay_value(&d, 0), 5, 0, 0);
 }
 
-static void test_pneu_delay_follow__running_signal__is_interpolated(void **state)
+TEST(test_pneu_delay_follow__running_signal__is_interpolated)
 {
   check_followed(0.11, 0.02);
   check_followed(0.033, 0.02);
   check_followed(0.005, 0.02);
 }
 
-static void test_pneu_delay_follow__no_room__says_so(void **state)
+TEST(test_pneu_delay_follow__no_room__says_so)
 {
   pneu_late slot[2];
   pneu_delay d;
@@ -245,17 +245,5 @@ static void test_pneu_delay_follow__no_room__says_so(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_run_and_step__dead_time_without_a_line__are_refused_and_change_nothing),
-      cmocka_unit_test(test_pneu_run_and_step__line_without_dead_time__change_not_a_bit),
-      cmocka_unit_test(test_pneu_run__dead_time__is_that_of_a_prompt_model_with_late_commands),
-      cmocka_unit_test(test_pneu_run__dead_time_beside_a_positioner__is_the_lines_only_for_openings),
-      cmocka_unit_test(test_pneu_step__dead_time__commands_act_to_the_instant),
-      cmocka_unit_test(test_pneu_step__no_room_for_a_command__says_so_and_changes_nothing),
-      cmocka_unit_test(test_pneu_delay__many_changes__no_time_is_lost),
-      cmocka_unit_test(test_pneu_delay_give__shorter_than_before__keeps_the_order),
-      cmocka_unit_test(test_pneu_delay_follow__running_signal__is_interpolated),
-      cmocka_unit_test(test_pneu_delay_follow__no_room__says_so),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -18,7 +18,7 @@ static int has_text(const char *s)
 
 /* ---- records ---- */
 
-static void test_pneu_effect_at__each__has_a_complete_record(void **state)
+TEST(test_pneu_effect_at__each__has_a_complete_record)
 {
   static const char *const equations[] = {"mass", "energy", "force", "command", "sensor"};
   int e, i, known;
@@ -36,7 +36,7 @@ static void test_pneu_effect_at__each__has_a_complete_record(void **state)
   }
 }
 
-static void test_pneu_effect_at__parameters__start_off_neutral_and_within_bounds(void **state)
+TEST(test_pneu_effect_at__parameters__start_off_neutral_and_within_bounds)
 {
   int e, k, count;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
@@ -89,7 +89,7 @@ static pneu_params neutral_with_odd_shape(int e)
   return p;
 }
 
-static void test_pneu_run__each_effect_neutral__is_the_base_model_bit_for_bit(void **state)
+TEST(test_pneu_run__each_effect_neutral__is_the_base_model_bit_for_bit)
 {
   static fixture_sample base[SAMPLES], neutral[SAMPLES];
   int e, gas, flow;
@@ -153,7 +153,7 @@ static int fewer(int a, int b)
 }
 
 /* The base model is the limit of the effect, not a case apart. The last sample of a run may be lost to rounding. */
-static void test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model(void **state)
+TEST(test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model)
 {
   static fixture_sample base[SAMPLES], small[SAMPLES];
   int e;
@@ -200,7 +200,7 @@ static pneu_state run_with_given(const pneu_params *p, int gas, int pressure, in
   return rig.s;
 }
 
-static void test_pneu_run__effect_of_anything_but_force__leaves_the_force_balance(void **state)
+TEST(test_pneu_run__effect_of_anything_but_force__leaves_the_force_balance)
 {
   int e, gas;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++)
@@ -215,7 +215,7 @@ static void test_pneu_run__effect_of_anything_but_force__leaves_the_force_balanc
     }
 }
 
-static void test_pneu_run__effect_of_force__leaves_the_balances_of_the_gas(void **state)
+TEST(test_pneu_run__effect_of_force__leaves_the_balances_of_the_gas)
 {
   int e, gas;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++)
@@ -230,7 +230,7 @@ static void test_pneu_run__effect_of_force__leaves_the_balances_of_the_gas(void 
     }
 }
 
-static void test_pneu_run__two_effects_with_states__each_keeps_its_own(void **state)
+TEST(test_pneu_run__two_effects_with_states__each_keeps_its_own)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
@@ -268,7 +268,7 @@ static pneu_real own_slope(const pneu_model *m, int e, pneu_real z, pneu_real st
 }
 
 /* Rates are linear in the effects' own states, but for the tube's, which is never near zero. */
-static void test_pneu_jacobian__state_of_an_effect_at_zero__is_as_good_as_elsewhere(void **state)
+TEST(test_pneu_jacobian__state_of_an_effect_at_zero__is_as_good_as_elsewhere)
 {
   int e, gas, k;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
@@ -287,7 +287,7 @@ static void test_pneu_jacobian__state_of_an_effect_at_zero__is_as_good_as_elsewh
 
 /* ---- all at once ---- */
 
-static void test_pneu_run__all_effects_together__stays_physical(void **state)
+TEST(test_pneu_run__all_effects_together__stays_physical)
 {
   static fixture_sample s[SAMPLES];
   int gas, i, e, n;
@@ -308,7 +308,7 @@ static void test_pneu_run__all_effects_together__stays_physical(void **state)
 }
 
 /* A vessel has no stroke to divide by. */
-static void test_pneu_observe__each_effect_on_a_vessel__shows_numbers(void **state)
+TEST(test_pneu_observe__each_effect_on_a_vessel__shows_numbers)
 {
   int e;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
@@ -330,19 +330,5 @@ static void test_pneu_observe__each_effect_on_a_vessel__shows_numbers(void **sta
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_effect_at__each__has_a_complete_record),
-      cmocka_unit_test(test_pneu_effect_at__parameters__start_off_neutral_and_within_bounds),
-      cmocka_unit_test(test_pneu_run__each_effect_neutral__is_the_base_model_bit_for_bit),
-#ifndef PNEU_SINGLE
-      cmocka_unit_test(test_pneu_run__each_effect_nearly_neutral__is_nearly_the_base_model),
-#endif
-      cmocka_unit_test(test_pneu_run__effect_of_anything_but_force__leaves_the_force_balance),
-      cmocka_unit_test(test_pneu_run__effect_of_force__leaves_the_balances_of_the_gas),
-      cmocka_unit_test(test_pneu_run__two_effects_with_states__each_keeps_its_own),
-      cmocka_unit_test(test_pneu_jacobian__state_of_an_effect_at_zero__is_as_good_as_elsewhere),
-      cmocka_unit_test(test_pneu_run__all_effects_together__stays_physical),
-      cmocka_unit_test(test_pneu_observe__each_effect_on_a_vessel__shows_numbers),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

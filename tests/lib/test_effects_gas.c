@@ -600,7 +600,7 @@ static void footprint_long_chamber(void)
 }
 
 /* What leaves the chamber leaves at its temperature, what comes in has that of the tube; the pressure is shared. */
-static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void **state)
+TEST(test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it)
 {
   pneu_params p = fixture_vessel(1e-3);
   pneu_model m;
@@ -624,7 +624,7 @@ static void test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it(void
 }
 
 /* Hardly any tube: chamber and tube are one, and gas that is not at ambient temperature may rest. */
-static void test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest(void **state)
+TEST(test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest)
 {
   static const double resistance[] = {1, 1e3, 1e5, 1e7}, share[] = {0, 0.5, 1};
   pneu_params p = fixture_params(FIXTURE_37_13);
@@ -642,7 +642,7 @@ static void test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest(vo
 }
 
 /* Down to a cubic millimetre behind a supply's resistance, and hardly any of that. */
-static void test_supply_droop__small_volume__is_not_stiff_at_rest(void **state)
+TEST(test_supply_droop__small_volume__is_not_stiff_at_rest)
 {
   static const double resistance[] = {1, 1e5, 1e7}, share[] = {0, 0.5, 1}, volume[] = {1e-12, 1e-9, 1e-6, 1e-3};
   pneu_params p = fixture_params(FIXTURE_37_13);
@@ -732,7 +732,7 @@ static void footprint_heat_transfer(void)
 }
 
 /* A film of the energy law does nothing under the other laws, a resistance nothing under any but the isothermal. */
-static void test_heat_transfer__parameter_of_another_law__does_not_act(void **state)
+TEST(test_heat_transfer__parameter_of_another_law__does_not_act)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_need("heat_transfer");
@@ -828,7 +828,7 @@ static void footprint_transducer_lag(void)
 }
 
 /* With a proportional band the command is a pressure; at rest the opening is the regulator's. */
-static void test_transducer_lag__regulator_at_rest__starts_from_its_opening(void **state)
+TEST(test_transducer_lag__regulator_at_rest__starts_from_its_opening)
 {
   pneu_params p = fixture_vessel(1e-3);
   fixture_rig rig;
@@ -1039,14 +1039,14 @@ static footprint footprints[] = {
     {"wall_temperature", "sealed_vessel__shares_its_heat_with_the_wall", footprint_wall_temperature},
 };
 
-static void test_effects_def__each_effect_on_the_gas__has_a_footprint_test(void **state)
+TEST(test_effects_def__each_effect_on_the_gas__has_a_footprint_test)
 {
   footprint_complete(footprints, COUNT(footprints), "mass energy command");
 }
 
 /* A stem that a positioner with a dead band has brought to rest creeps off again when its set position does: holds and
  * ramps of many loops. */
-static void test_positioner__holds_and_ramps__always_end(void **state)
+TEST(test_positioner__holds_and_ramps__always_end)
 {
   enum { LOOPS = 40, STRETCHES = 20 };
   uint64_t seed = 5;
@@ -1105,7 +1105,7 @@ static double ramped(double edge, long *events)
 }
 
 /* It goes in and out of its dead band 600 times, by 4 um; a wider edge of the band has it pass on in the mean. */
-static void test_positioner__edge_of_the_band_wider_than_pulses__follows_a_ramp_without_them(void **state)
+TEST(test_positioner__edge_of_the_band_wider_than_pulses__follows_a_ramp_without_them)
 {
   long pulses, none;
   const double x = ramped(0, &pulses);
@@ -1117,7 +1117,7 @@ static void test_positioner__edge_of_the_band_wider_than_pulses__follows_a_ramp_
 
 /* A leak pushes the stem out of the dead band, air is let in, and friction keeps the stem where it is until the
  * pressure has risen by the whole friction band, 2 F/A, so that the cycle begins again. */
-static void test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_band(void **state)
+TEST(test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_band)
 {
   const double slice = 0.02, band = 2 * 480.0 / 0.04;
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -1143,19 +1143,6 @@ static void test_positioner__leak_at_the_dead_band__pressure_swings_over_the_fri
 
 int main(void)
 {
-  enum { OTHERS = 8 };
-  static char names[COUNT(footprints)][100];
-  struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
-      cmocka_unit_test(test_effects_def__each_effect_on_the_gas__has_a_footprint_test),
-      cmocka_unit_test(test_connecting_tube__chamber_colder_than_tube__is_warmed_by_it),
-      cmocka_unit_test(test_connecting_tube__hardly_any_resistance__is_not_stiff_at_rest),
-      cmocka_unit_test(test_supply_droop__small_volume__is_not_stiff_at_rest),
-      cmocka_unit_test(test_heat_transfer__parameter_of_another_law__does_not_act),
-      cmocka_unit_test(test_transducer_lag__regulator_at_rest__starts_from_its_opening),
-      cmocka_unit_test(test_positioner__holds_and_ramps__always_end),
-      cmocka_unit_test(test_positioner__edge_of_the_band_wider_than_pulses__follows_a_ramp_without_them),
-      cmocka_unit_test(test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_band),
-  };
-  footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  footprint_join(footprints, COUNT(footprints));
+  return tests_run(NULL, NULL);
 }

@@ -66,7 +66,7 @@ static void footprint_position_gain(void)
 }
 
 /* Bias is what a sensor shows of nothing: it is not multiplied by the gain. */
-static void test_gain_and_bias__together__are_affine(void **state)
+TEST(test_gain_and_bias__together__are_affine)
 {
   static const char *const needed[] = {"pressure_bias", "pressure_gain", "position_bias", "position_gain"};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -152,7 +152,7 @@ static footprint footprints[] = {
     {"temperature_lag", "steady_gas__is_approached_as_first_order", footprint_temperature_lag},
 };
 
-static void test_effects_def__each_effect_on_a_sensor__has_a_footprint_test(void **state)
+TEST(test_effects_def__each_effect_on_a_sensor__has_a_footprint_test)
 {
   footprint_complete(footprints, COUNT(footprints), "sensor");
 }
@@ -199,7 +199,7 @@ static pneu_state filling(const pneu_model *m, pneu_input *input)
 }
 
 /* Alone, in every gas law, as a free stem and as a driven one. */
-static void test_pneu_show__every_effect__is_as_observed(void **state)
+TEST(test_pneu_show__every_effect__is_as_observed)
 {
   int e, gas, driven;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
@@ -221,7 +221,7 @@ static void test_pneu_show__every_effect__is_as_observed(void **state)
   }
 }
 
-static void test_pneu_show__no_effect__is_the_truth(void **state)
+TEST(test_pneu_show__no_effect__is_the_truth)
 {
   int gas;
   for (gas = 0; gas < PNEU_GAS_COUNT; gas++) {
@@ -235,7 +235,7 @@ static void test_pneu_show__no_effect__is_the_truth(void **state)
   }
 }
 
-static void test_pneu_show__all_sensors_at_once__are_as_observed(void **state)
+TEST(test_pneu_show__all_sensors_at_once__are_as_observed)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
@@ -253,7 +253,7 @@ static void test_pneu_show__all_sensors_at_once__are_as_observed(void **state)
 }
 
 /* Free terms that a sensor shows, one of them over the opening, and one that only acts. */
-static void test_pneu_show__free_terms__are_as_observed(void **state)
+TEST(test_pneu_show__free_terms__are_as_observed)
 {
   static const pneu_term term[] = {
       {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 2, 0, (pneu_real)0.02, {3e3, 5e3}},
@@ -288,7 +288,7 @@ static int same_status(const pneu_model *m, const pneu_state *s, const pneu_inpu
 
 /* No pressure, no temperature, no volume, or no number: refused by both, and nothing is written; with and without a
  * sensor between. */
-static void test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe(void **state)
+TEST(test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe)
 {
   static const pneu_term bias = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 2, 0, 1, {3e3, 3e3}};
   int gas, n, role;
@@ -316,7 +316,7 @@ static void test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe(void
 
 /* ---- Lags ---- */
 
-static void test_lags__of_next_to_no_time__are_none(void **state)
+TEST(test_lags__of_next_to_no_time__are_none)
 {
   static const char *const lag[] = {"pressure_time", "position_time", "temperature_time", "transducer_time"};
   int i;
@@ -333,7 +333,7 @@ static void test_lags__of_next_to_no_time__are_none(void **state)
   }
 }
 
-static void test_lags__from_a_nanosecond_on__act(void **state)
+TEST(test_lags__from_a_nanosecond_on__act)
 {
   const pneu_params at = with("pressure_time", 1e-9), below = with("pressure_time", 0.999e-9);
   assert_int_equal(fixture_model(&at, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 1);
@@ -342,19 +342,6 @@ static void test_lags__from_a_nanosecond_on__act(void **state)
 
 int main(void)
 {
-  enum { OTHERS = 9 };
-  static char names[COUNT(footprints)][100];
-  struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
-      cmocka_unit_test(test_effects_def__each_effect_on_a_sensor__has_a_footprint_test),
-      cmocka_unit_test(test_gain_and_bias__together__are_affine),
-      cmocka_unit_test(test_pneu_show__every_effect__is_as_observed),
-      cmocka_unit_test(test_pneu_show__no_effect__is_the_truth),
-      cmocka_unit_test(test_pneu_show__all_sensors_at_once__are_as_observed),
-      cmocka_unit_test(test_pneu_show__free_terms__are_as_observed),
-      cmocka_unit_test(test_pneu_show__unphysical_state__is_refused_as_by_pneu_observe),
-      cmocka_unit_test(test_lags__of_next_to_no_time__are_none),
-      cmocka_unit_test(test_lags__from_a_nanosecond_on__act),
-  };
-  footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  footprint_join(footprints, COUNT(footprints));
+  return tests_run(NULL, NULL);
 }

@@ -126,7 +126,7 @@ static void check_bristle(double v, double z)
   assert_close(f[3], (2e5 * 0.04 - 4e5 * 0.022 - 1500 * v - F * z - s1 * slip) / 2, TOL(1e-9, 1e-2), TOL(1e-12, 1e-5));
 }
 
-static void test_presliding__moving__friction_is_that_of_lugre(void **state)
+TEST(test_presliding__moving__friction_is_that_of_lugre)
 {
   fixture_need("presliding");
   check_bristle(3e-3, 0.3);
@@ -136,7 +136,7 @@ static void test_presliding__moving__friction_is_that_of_lugre(void **state)
 }
 
 /* Bristles that carry no force bend as the others do: z ends at 1 where the stem goes on in one direction. */
-static void test_presliding__no_friction__bristles_bend_all_the_way(void **state)
+TEST(test_presliding__no_friction__bristles_bend_all_the_way)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
@@ -155,7 +155,7 @@ static void test_presliding__no_friction__bristles_bend_all_the_way(void **state
 }
 
 /* Bristles bent on the way down help the stem up from the lower stop: it leaves at k x_0 - F. */
-static void test_presliding__at_a_stop__bristles_stay_bent(void **state)
+TEST(test_presliding__at_a_stop__bristles_stay_bent)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
@@ -195,7 +195,7 @@ static void footprint_presliding(void)
 
 /* A stem on bristles that has come to rest turns round a few times and then takes few steps, however stiff they are:
  * friction that holds it is a stiff spring on one side of v = 0 and hardly any on the other. */
-static void test_presliding__at_rest__takes_few_steps(void **state)
+TEST(test_presliding__at_rest__takes_few_steps)
 {
   static const double length[] = {4e-7, 2e-5, 2e-4};
   int i;
@@ -219,7 +219,7 @@ static void test_presliding__at_rest__takes_few_steps(void **state)
 }
 
 /* It turns round where it moves against its direction by what is resolved, and keeps its velocity. */
-static void test_pneu_switch__bristles__turns_round(void **state)
+TEST(test_pneu_switch__bristles__turns_round)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];
@@ -378,7 +378,7 @@ static void footprint_stop_compliance(void)
 }
 
 /* A soft stop under a small dead volume would leave the gas no room: a rigid stop lies at a tenth of it. */
-static void test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it(void **state)
+TEST(test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
@@ -396,7 +396,7 @@ static void test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it(vo
 
 /* Behind a stop that hardly resists, rigid ones: above at twice the stroke, below at the stroke or, where the gas would
  * have no room, at a tenth of the dead volume. */
-static void test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops(void **state)
+TEST(test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
@@ -420,7 +420,7 @@ static void test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops(voi
 }
 
 /* On a stop as stiff as a block of steel the rounding of the position alone makes a force: the stem must not mind. */
-static void test_stop_compliance__very_stiff__stem_rests_quietly(void **state)
+TEST(test_stop_compliance__very_stiff__stem_rests_quietly)
 {
   static const double compliance[] = {1e-8, 1e-10, 1e-12};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -443,7 +443,7 @@ static void test_stop_compliance__very_stiff__stem_rests_quietly(void **state)
 }
 
 /* The force of a stiff stop is not that of the whole stroke: in single precision a stem stuck to it by 2 kN. */
-static void test_stop_compliance__very_stiff__stem_leaves_at_its_balance(void **state)
+TEST(test_stop_compliance__very_stiff__stem_leaves_at_its_balance)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double balance = ((double)p.spring_rate * (double)p.spring_preload + (double)p.dry_friction) / (double)p.area;
@@ -459,7 +459,7 @@ static void test_stop_compliance__very_stiff__stem_leaves_at_its_balance(void **
 }
 
 /* A stem that creeps into a soft stop as the supply is reached comes to rest there for good. */
-static void test_stop_compliance__creeping_in__does_not_chatter(void **state)
+TEST(test_stop_compliance__creeping_in__does_not_chatter)
 {
   static const struct creep {
     double compliance, supply, dead_volume;
@@ -495,28 +495,13 @@ static footprint footprints[] = {
     {"travel_limit", "filling__ends_short", footprint_travel_limit},
 };
 
-static void test_effects_def__each_effect_on_the_stem__has_a_footprint_test(void **state)
+TEST(test_effects_def__each_effect_on_the_stem__has_a_footprint_test)
 {
   footprint_complete(footprints, COUNT(footprints), "force");
 }
 
 int main(void)
 {
-  enum { OTHERS = 8 };
-  static char names[COUNT(footprints)][100];
-  struct CMUnitTest tests[OTHERS + COUNT(footprints)] = {
-      cmocka_unit_test(test_effects_def__each_effect_on_the_stem__has_a_footprint_test),
-      cmocka_unit_test(test_presliding__moving__friction_is_that_of_lugre),
-      cmocka_unit_test(test_presliding__no_friction__bristles_bend_all_the_way),
-      cmocka_unit_test(test_presliding__at_a_stop__bristles_stay_bent),
-      cmocka_unit_test(test_presliding__at_rest__takes_few_steps),
-      cmocka_unit_test(test_pneu_switch__bristles__turns_round),
-      cmocka_unit_test(test_stop_compliance__hardly_any_dead_volume__keeps_a_tenth_of_it),
-      cmocka_unit_test(test_stop_compliance__hardly_any_resistance__ends_at_rigid_stops),
-      cmocka_unit_test(test_stop_compliance__very_stiff__stem_rests_quietly),
-      cmocka_unit_test(test_stop_compliance__very_stiff__stem_leaves_at_its_balance),
-      cmocka_unit_test(test_stop_compliance__creeping_in__does_not_chatter),
-  };
-  footprint_tests(footprints, COUNT(footprints), names, tests + OTHERS);
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  footprint_join(footprints, COUNT(footprints));
+  return tests_run(NULL, NULL);
 }

@@ -57,7 +57,7 @@ static void check_formula(int law, const pneu_params *p)
     }
 }
 
-static void test_pneu_orifice__each_law__follows_its_formula(void **state)
+TEST(test_pneu_orifice__each_law__follows_its_formula)
 {
   int law;
   for (law = 0; law < PNEU_FLOW_COUNT; law++) {
@@ -72,7 +72,7 @@ static void test_pneu_orifice__each_law__follows_its_formula(void **state)
   }
 }
 
-static void test_pneu_orifice__area__is_a_factor(void **state)
+TEST(test_pneu_orifice__area__is_a_factor)
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   int law;
@@ -94,7 +94,7 @@ static void own(const pneu_model *model, pneu_real area, pneu_real p_up, pneu_re
   pneu_orifice(model, PNEU_FLOW_ISO6358, area, p_up, T_up, p_down, flow);
 }
 
-static void test_pneu_run__own_flow_law__takes_the_place_of_the_declared_one(void **state)
+TEST(test_pneu_run__own_flow_law__takes_the_place_of_the_declared_one)
 {
   pneu_state s[2];
   int k, stretch;
@@ -128,7 +128,7 @@ static void check_slopes(const pneu_model *m, int law, double pu, double T, doub
   assert_close(f.dq_dT, warm / (2 * hT), rtol * (double)f.q / T, rtol);
 }
 
-static void test_pneu_orifice__slopes__match_central_differences(void **state)
+TEST(test_pneu_orifice__slopes__match_central_differences)
 {
   static const double r[] = {0.02, 0.1, 0.25, 0.29, 0.31, 0.5, 0.54, 0.7, 0.9, 0.99, 0.999, 0.9994};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -145,7 +145,7 @@ static void test_pneu_orifice__slopes__match_central_differences(void **state)
 }
 
 #ifndef PNEU_SINGLE /* the ratio 1 - 1e-4 has four digits in float */
-static void test_pneu_orifice__slopes_within_the_blend__match_central_differences(void **state)
+TEST(test_pneu_orifice__slopes_within_the_blend__match_central_differences)
 {
   static const double w[] = {1e-6, 1e-5, 1e-4, 2e-4, 4.9e-4, 5.1e-4};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -186,7 +186,7 @@ static void check_edge(const pneu_model *m, int law)
   assert_close(slope[5] - slope[4], slope[1] - slope[0], 0.02 * fabs(slope[1] - slope[0]), 0);
 }
 
-static void test_pneu_orifice__edge_of_the_blend__value_slope_and_curvature_are_continuous(void **state)
+TEST(test_pneu_orifice__edge_of_the_blend__value_slope_and_curvature_are_continuous)
 {
   static const double index[] = {0.5, 0.4, 0.62};
   int i;
@@ -201,7 +201,7 @@ static void test_pneu_orifice__edge_of_the_blend__value_slope_and_curvature_are_
   }
 }
 
-static void test_pneu_orifice__within_the_blend__is_linear_at_zero_and_below_the_law(void **state)
+TEST(test_pneu_orifice__within_the_blend__is_linear_at_zero_and_below_the_law)
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const double pu = 4e5;
@@ -224,7 +224,7 @@ static void test_pneu_orifice__within_the_blend__is_linear_at_zero_and_below_the
 
 /* ---- choking ---- */
 
-static void test_pneu_orifice__at_choking__value_and_slope_are_continuous(void **state)
+TEST(test_pneu_orifice__at_choking__value_and_slope_are_continuous)
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const double critical[PNEU_FLOW_COUNT] = {0, pow(1 / 1.2, 3.5), 0.3};
@@ -244,7 +244,7 @@ static void test_pneu_orifice__at_choking__value_and_slope_are_continuous(void *
   }
 }
 
-static void test_pneu_orifice__below_choking__flow_ignores_the_far_side(void **state)
+TEST(test_pneu_orifice__below_choking__flow_ignores_the_far_side)
 {
   static const int laws[] = {PNEU_FLOW_CHOKED, PNEU_FLOW_ISO6358};
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -257,7 +257,7 @@ static void test_pneu_orifice__below_choking__flow_ignores_the_far_side(void **s
   }
 }
 
-static void test_pneu_orifice__iso6358_choked__equals_the_nozzle(void **state)
+TEST(test_pneu_orifice__iso6358_choked__equals_the_nozzle)
 {
   const pneu_params p = fixture_params(FIXTURE_37_13);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -268,7 +268,7 @@ static void test_pneu_orifice__iso6358_choked__equals_the_nozzle(void **state)
 }
 
 /* The rule of thumb of catalogues, effective area S [mm2] = 5.02 C [dm3/(s bar)], for air. */
-static void test_pneu_sonic_conductance__one_square_millimetre__is_what_catalogues_say(void **state)
+TEST(test_pneu_sonic_conductance__one_square_millimetre__is_what_catalogues_say)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -298,7 +298,7 @@ static double net_flow(int law, double p_in, double p_from)
   return look.in - look.out;
 }
 
-static void test_pneu_observe__pressures_swapped__net_flow_changes_sign_only(void **state)
+TEST(test_pneu_observe__pressures_swapped__net_flow_changes_sign_only)
 {
   static const double other[] = {1e5, 2e5, 2.9e5, 2.9999e5};
   int law, i;
@@ -310,7 +310,7 @@ static void test_pneu_observe__pressures_swapped__net_flow_changes_sign_only(voi
     }
 }
 
-static void test_pneu_observe__vacuum_at_open_vent__draws_ambient_air(void **state)
+TEST(test_pneu_observe__vacuum_at_open_vent__draws_ambient_air)
 {
   const pneu_params p = fixture_vessel(1e-3);
   const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), -0.5, -4e4, 0);
@@ -320,7 +320,7 @@ static void test_pneu_observe__vacuum_at_open_vent__draws_ambient_air(void **sta
   assert_close(look.out, 0, 0, 0);
 }
 
-static void test_pneu_observe__shut__passes_nothing(void **state)
+TEST(test_pneu_observe__shut__passes_nothing)
 {
   const pneu_params p = fixture_vessel(1e-3);
   const fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 1e5, 0);
@@ -328,7 +328,7 @@ static void test_pneu_observe__shut__passes_nothing(void **state)
   assert_true(look.in <= 0 && look.out <= 0);
 }
 
-static void test_pneu_observe__open_orifice_without_area__passes_nothing_and_is_not_choked(void **state)
+TEST(test_pneu_observe__open_orifice_without_area__passes_nothing_and_is_not_choked)
 {
   pneu_params p = fixture_vessel(1e-3);
   fixture_rig rig;
@@ -340,7 +340,7 @@ static void test_pneu_observe__open_orifice_without_area__passes_nothing_and_is_
   assert_int_equal(look.choked, 0);
 }
 
-static void test_pneu_observe__choked__is_reported_while_it_lasts(void **state)
+TEST(test_pneu_observe__choked__is_reported_while_it_lasts)
 {
   const pneu_params p = fixture_vessel(1e-3);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
@@ -354,25 +354,5 @@ static void test_pneu_observe__choked__is_reported_while_it_lasts(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_orifice__each_law__follows_its_formula),
-      cmocka_unit_test(test_pneu_orifice__area__is_a_factor),
-      cmocka_unit_test(test_pneu_run__own_flow_law__takes_the_place_of_the_declared_one),
-      cmocka_unit_test(test_pneu_orifice__slopes__match_central_differences),
-#ifndef PNEU_SINGLE
-      cmocka_unit_test(test_pneu_orifice__slopes_within_the_blend__match_central_differences),
-      cmocka_unit_test(test_pneu_orifice__edge_of_the_blend__value_slope_and_curvature_are_continuous),
-      cmocka_unit_test(test_pneu_orifice__within_the_blend__is_linear_at_zero_and_below_the_law),
-#endif
-      cmocka_unit_test(test_pneu_orifice__at_choking__value_and_slope_are_continuous),
-      cmocka_unit_test(test_pneu_orifice__below_choking__flow_ignores_the_far_side),
-      cmocka_unit_test(test_pneu_orifice__iso6358_choked__equals_the_nozzle),
-      cmocka_unit_test(test_pneu_sonic_conductance__one_square_millimetre__is_what_catalogues_say),
-      cmocka_unit_test(test_pneu_observe__pressures_swapped__net_flow_changes_sign_only),
-      cmocka_unit_test(test_pneu_observe__vacuum_at_open_vent__draws_ambient_air),
-      cmocka_unit_test(test_pneu_observe__shut__passes_nothing),
-      cmocka_unit_test(test_pneu_observe__open_orifice_without_area__passes_nothing_and_is_not_choked),
-      cmocka_unit_test(test_pneu_observe__choked__is_reported_while_it_lasts),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

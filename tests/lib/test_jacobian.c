@@ -80,7 +80,7 @@ static void check_scenes(const pneu_model *m, const char *what, double rtol)
     }
 }
 
-static void test_pneu_jacobian__each_law_and_mode__is_the_slope_of_the_right_hand_side(void **state)
+TEST(test_pneu_jacobian__each_law_and_mode__is_the_slope_of_the_right_hand_side)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int gas, flow;
@@ -95,7 +95,7 @@ static void test_pneu_jacobian__each_law_and_mode__is_the_slope_of_the_right_han
     }
 }
 
-static void test_pneu_jacobian__given_position_or_pressure__is_the_slope_of_the_right_hand_side(void **state)
+TEST(test_pneu_jacobian__given_position_or_pressure__is_the_slope_of_the_right_hand_side)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   int gas, i;
@@ -106,7 +106,7 @@ static void test_pneu_jacobian__given_position_or_pressure__is_the_slope_of_the_
     }
 }
 
-static void test_pneu_jacobian__vessel_and_regulator__is_the_slope_of_the_right_hand_side(void **state)
+TEST(test_pneu_jacobian__vessel_and_regulator__is_the_slope_of_the_right_hand_side)
 {
   pneu_params p = fixture_vessel(1e-4);
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 1e5, 0);
@@ -119,7 +119,7 @@ static void test_pneu_jacobian__vessel_and_regulator__is_the_slope_of_the_right_
   check_jacobian(&rig.m, &rig.s, &rig.input, TOL(1e-5, 5e-2));
 }
 
-static void test_pneu_jacobian__each_effect__is_the_slope_of_the_right_hand_side(void **state)
+TEST(test_pneu_jacobian__each_effect__is_the_slope_of_the_right_hand_side)
 {
   int e, gas;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++)
@@ -151,7 +151,7 @@ static void check_inverse(int n, pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX], do
     }
 }
 
-static void test_pneu_invert__random_matrices__times_itself_is_one(void **state)
+TEST(test_pneu_invert__random_matrices__times_itself_is_one)
 {
   pneu_real a[PNEU_STATE_MAX][PNEU_STATE_MAX];
   uint64_t seed = 5;
@@ -166,7 +166,7 @@ static void test_pneu_invert__random_matrices__times_itself_is_one(void **state)
     }
 }
 
-static void test_pneu_invert__zeros_on_the_diagonal__are_pivoted(void **state)
+TEST(test_pneu_invert__zeros_on_the_diagonal__are_pivoted)
 {
   pneu_real cycle[PNEU_STATE_MAX][PNEU_STATE_MAX] = {{0, 2, 0}, {0, 0, 3}, {4, 0, 0}};
   pneu_real swapped[PNEU_STATE_MAX][PNEU_STATE_MAX] = {{0, 1}, {1, 0}};
@@ -174,7 +174,7 @@ static void test_pneu_invert__zeros_on_the_diagonal__are_pivoted(void **state)
   check_inverse(2, swapped, TOL(1e-15, 1e-6));
 }
 
-static void test_pneu_invert__singular_or_nan__is_refused(void **state)
+TEST(test_pneu_invert__singular_or_nan__is_refused)
 {
   pneu_real singular[PNEU_STATE_MAX][PNEU_STATE_MAX] = {{1, 2}, {2, 4}};
   pneu_real nan[PNEU_STATE_MAX][PNEU_STATE_MAX] = {{(pneu_real)NAN, 1}, {1, (pneu_real)NAN}};
@@ -183,7 +183,7 @@ static void test_pneu_invert__singular_or_nan__is_refused(void **state)
 }
 
 /* Down to the last of the air: differences reach into the domain, not out of it. */
-static void test_pneu_jacobian__chamber_without_air__is_refused(void **state)
+TEST(test_pneu_jacobian__chamber_without_air__is_refused)
 {
   static const double band[] = {0, 5e4}; /* analytic, and by differences */
   int i;
@@ -202,7 +202,7 @@ static void test_pneu_jacobian__chamber_without_air__is_refused(void **state)
 }
 
 /* The step at which I/(h gamma) - J of one state is 0. */
-static void test_pneu_step_try__singular_matrix__is_refused(void **state)
+TEST(test_pneu_step_try__singular_matrix__is_refused)
 {
   const pneu_real h = (pneu_real)1e-3, gamma = (pneu_real)(PNEU_ORDER == 5 ? 0.21193756319429014 : 0.57282);
   const pneu_params p = fixture_vessel(1e-3);
@@ -218,16 +218,5 @@ static void test_pneu_step_try__singular_matrix__is_refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_jacobian__each_law_and_mode__is_the_slope_of_the_right_hand_side),
-      cmocka_unit_test(test_pneu_jacobian__given_position_or_pressure__is_the_slope_of_the_right_hand_side),
-      cmocka_unit_test(test_pneu_jacobian__vessel_and_regulator__is_the_slope_of_the_right_hand_side),
-      cmocka_unit_test(test_pneu_jacobian__each_effect__is_the_slope_of_the_right_hand_side),
-      cmocka_unit_test(test_pneu_jacobian__chamber_without_air__is_refused),
-      cmocka_unit_test(test_pneu_step_try__singular_matrix__is_refused),
-      cmocka_unit_test(test_pneu_invert__random_matrices__times_itself_is_one),
-      cmocka_unit_test(test_pneu_invert__zeros_on_the_diagonal__are_pivoted),
-      cmocka_unit_test(test_pneu_invert__singular_or_nan__is_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -23,7 +23,7 @@ static void check_value(int i, double value, int allowed)
   assert_close(bad, allowed ? -1 : i, 0, 0);
 }
 
-static void test_pneu_model_init__defaults__are_accepted(void **state)
+TEST(test_pneu_model_init__defaults__are_accepted)
 {
   pneu_params p;
   int bad = -2;
@@ -33,7 +33,7 @@ static void test_pneu_model_init__defaults__are_accepted(void **state)
   assert_int_equal(init(&p, NULL), PNEU_OK);
 }
 
-static void test_pneu_model_init__each_parameter_outside_its_bounds__is_refused_by_name(void **state)
+TEST(test_pneu_model_init__each_parameter_outside_its_bounds__is_refused_by_name)
 {
   int i;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
@@ -52,7 +52,7 @@ static void test_pneu_model_init__each_parameter_outside_its_bounds__is_refused_
 }
 
 /* An initialiser that names only what it needs leaves the rest 0. */
-static void test_pneu_model_init__form_left_at_0__is_accepted_where_its_effect_is_neutral(void **state)
+TEST(test_pneu_model_init__form_left_at_0__is_accepted_where_its_effect_is_neutral)
 {
   pneu_params p;
   pneu_param_info info;
@@ -77,7 +77,7 @@ static void test_pneu_model_init__form_left_at_0__is_accepted_where_its_effect_i
   assert_true(forms > 0 || PNEU_EFFECT_COUNT == 0);
 }
 
-static void test_pneu_model_init__two_bad_parameters__names_the_first(void **state)
+TEST(test_pneu_model_init__two_bad_parameters__names_the_first)
 {
   pneu_params p;
   int bad;
@@ -89,7 +89,7 @@ static void test_pneu_model_init__two_bad_parameters__names_the_first(void **sta
   assert_int_equal(init(&p, NULL), PNEU_E_PARAM);
 }
 
-static void test_pneu_model_init__unknown_law__is_refused(void **state)
+TEST(test_pneu_model_init__unknown_law__is_refused)
 {
   static const int bad[][2] = {{-1, 0}, {PNEU_GAS_COUNT, 0}, {0, -1}, {0, PNEU_FLOW_COUNT}, {99, 99}};
   pneu_params p;
@@ -104,7 +104,7 @@ static void test_pneu_model_init__unknown_law__is_refused(void **state)
   }
 }
 
-static void test_pneu_model_init__same_arguments__same_model_whatever_was_there(void **state)
+TEST(test_pneu_model_init__same_arguments__same_model_whatever_was_there)
 {
   const pneu_laws law = {PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED, 0, 1};
   pneu_params p;
@@ -117,7 +117,7 @@ static void test_pneu_model_init__same_arguments__same_model_whatever_was_there(
   assert_memory_equal(&a, &b, sizeof a);
 }
 
-static void test_pneu_params_default__base__is_table_a1(void **state)
+TEST(test_pneu_params_default__base__is_table_a1)
 {
   pneu_params p;
   pneu_params_default(&p);
@@ -136,7 +136,7 @@ static void test_pneu_params_default__base__is_table_a1(void **state)
   assert_close(p.gas_constant, 8.31446 / 0.02896, 0, TOL(1e-15, 1e-7));
 }
 
-static void test_pneu_params_default__effects__are_neutral_and_none_acts(void **state)
+TEST(test_pneu_params_default__effects__are_neutral_and_none_acts)
 {
   pneu_params p;
   pneu_model model;
@@ -154,7 +154,7 @@ static void test_pneu_params_default__effects__are_neutral_and_none_acts(void **
 
 /* ---- the list ---- */
 
-static void test_pneu_param_describe__each__is_complete_and_its_values_within_bounds(void **state)
+TEST(test_pneu_param_describe__each__is_complete_and_its_values_within_bounds)
 {
   int i;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
@@ -169,7 +169,7 @@ static void test_pneu_param_describe__each__is_complete_and_its_values_within_bo
   }
 }
 
-static void test_pneu_param_describe__names__are_unique(void **state)
+TEST(test_pneu_param_describe__names__are_unique)
 {
   pneu_param_info a, b;
   int i, j;
@@ -181,7 +181,7 @@ static void test_pneu_param_describe__names__are_unique(void **state)
     }
 }
 
-static void test_pneu_param_find__each_name_alone_and_after_its_effect__is_its_index(void **state)
+TEST(test_pneu_param_find__each_name_alone_and_after_its_effect__is_its_index)
 {
   char full[128];
   int i;
@@ -201,7 +201,7 @@ static void test_pneu_param_find__each_name_alone_and_after_its_effect__is_its_i
   }
 }
 
-static void test_pneu_param_find__what_is_not_there__is_not_found(void **state)
+TEST(test_pneu_param_find__what_is_not_there__is_not_found)
 {
   static const char *const none[] = {"",      ".",     "Area",          "area ",
                                      ".area", "area.", "actuator.area", "chamber_lea.leak_area"};
@@ -213,7 +213,7 @@ static void test_pneu_param_find__what_is_not_there__is_not_found(void **state)
   assert_int_equal(pneu_effect_of(-1), -1);
 }
 
-static void test_pneu_param_describe__out_of_range__is_refused(void **state)
+TEST(test_pneu_param_describe__out_of_range__is_refused)
 {
   pneu_param_info info;
   pneu_params p;
@@ -227,7 +227,7 @@ static void test_pneu_param_describe__out_of_range__is_refused(void **state)
   assert_int_equal(pneu_effect_params(PNEU_EFFECT_COUNT, NULL), -1);
 }
 
-static void test_pneu_param_at__each__is_a_place_of_its_own_inside(void **state)
+TEST(test_pneu_param_at__each__is_a_place_of_its_own_inside)
 {
   pneu_params p;
   int i;
@@ -240,7 +240,7 @@ static void test_pneu_param_at__each__is_a_place_of_its_own_inside(void **state)
   assert_true(p.polytropic_index == 1000 + PNEU_PARAM_polytropic_index);
 }
 
-static void test_pneu_effect_params__ranges__fill_the_list_in_order(void **state)
+TEST(test_pneu_effect_params__ranges__fill_the_list_in_order)
 {
   int i, next = PNEU_PARAM_BASE_COUNT;
   for (i = 0; i < PNEU_EFFECT_COUNT; i++) {
@@ -260,7 +260,7 @@ static void test_pneu_effect_params__ranges__fill_the_list_in_order(void **state
 
 /* ---- words ---- */
 
-static void test_pneu_text__in_and_out_of_range__has_words(void **state)
+TEST(test_pneu_text__in_and_out_of_range__has_words)
 {
   assert_string_equal(pneu_status_text(PNEU_OK), "success");
   assert_string_equal(pneu_status_text(PNEU_E_STOPPED), "stopped by the observer");
@@ -275,7 +275,7 @@ static void test_pneu_text__in_and_out_of_range__has_words(void **state)
 }
 
 /* Results that programs publish rest on the default tolerance. */
-static void test_pneu_options_default__each__is_as_documented(void **state)
+TEST(test_pneu_options_default__each__is_as_documented)
 {
   pneu_options options;
   pneu_options_default(&options);
@@ -286,24 +286,5 @@ static void test_pneu_options_default__each__is_as_documented(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_model_init__defaults__are_accepted),
-      cmocka_unit_test(test_pneu_model_init__each_parameter_outside_its_bounds__is_refused_by_name),
-      cmocka_unit_test(test_pneu_model_init__form_left_at_0__is_accepted_where_its_effect_is_neutral),
-      cmocka_unit_test(test_pneu_model_init__two_bad_parameters__names_the_first),
-      cmocka_unit_test(test_pneu_model_init__unknown_law__is_refused),
-      cmocka_unit_test(test_pneu_model_init__same_arguments__same_model_whatever_was_there),
-      cmocka_unit_test(test_pneu_params_default__base__is_table_a1),
-      cmocka_unit_test(test_pneu_params_default__effects__are_neutral_and_none_acts),
-      cmocka_unit_test(test_pneu_param_describe__each__is_complete_and_its_values_within_bounds),
-      cmocka_unit_test(test_pneu_param_describe__names__are_unique),
-      cmocka_unit_test(test_pneu_param_find__each_name_alone_and_after_its_effect__is_its_index),
-      cmocka_unit_test(test_pneu_param_find__what_is_not_there__is_not_found),
-      cmocka_unit_test(test_pneu_param_describe__out_of_range__is_refused),
-      cmocka_unit_test(test_pneu_param_at__each__is_a_place_of_its_own_inside),
-      cmocka_unit_test(test_pneu_effect_params__ranges__fill_the_list_in_order),
-      cmocka_unit_test(test_pneu_options_default__each__is_as_documented),
-      cmocka_unit_test(test_pneu_text__in_and_out_of_range__has_words),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -32,7 +32,7 @@ static void check_slide(double v0, double pressure)
   assert_true(s.v == 0 && s.mode == PNEU_MODE_STUCK);
 }
 
-static void test_pneu_run__coulomb_slide__stops_at_the_known_time_and_place(void **state)
+TEST(test_pneu_run__coulomb_slide__stops_at_the_known_time_and_place)
 {
   check_slide(0.5, 0);
   check_slide(-0.5, 0);
@@ -62,7 +62,7 @@ static void check_fall(double from, double to, double force)
   assert_true(s.x == (pneu_real)to && s.v == 0);
 }
 
-static void test_pneu_run__free_fall__reaches_the_stop_at_the_known_time(void **state)
+TEST(test_pneu_run__free_fall__reaches_the_stop_at_the_known_time)
 {
   check_fall(0.1, 0, 2 * 9.80665);
   check_fall(0.03, 0, 2 * 9.80665);
@@ -71,7 +71,7 @@ static void test_pneu_run__free_fall__reaches_the_stop_at_the_known_time(void **
 }
 
 /* M x'' = p A - k (x + x_0), undamped: a cosine about the balance. */
-static void test_pneu_run__spring_and_mass__oscillates_at_its_natural_frequency(void **state)
+TEST(test_pneu_run__spring_and_mass__oscillates_at_its_natural_frequency)
 {
   pneu_params p = bare();
   fixture_rig rig;
@@ -86,7 +86,7 @@ static void test_pneu_run__spring_and_mass__oscillates_at_its_natural_frequency(
 }
 
 /* Under a constant force against c v the velocity settles at force/c with time M/c. */
-static void test_pneu_run__viscous_terms__add_up_and_set_the_final_velocity(void **state)
+TEST(test_pneu_run__viscous_terms__add_up_and_set_the_final_velocity)
 {
   pneu_params p = bare();
   fixture_rig rig;
@@ -120,7 +120,7 @@ static double leaves_at(const pneu_params *p, double from, double x, double rate
   return e.p[0];
 }
 
-static void test_pneu_run__pressure_ramp__breaks_away_at_the_exact_pressure(void **state)
+TEST(test_pneu_run__pressure_ramp__breaks_away_at_the_exact_pressure)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const double k = 4e5, F = 480, A = 0.04, x0 = 0.01, tol = TOL(1e-4, 20);
@@ -130,7 +130,7 @@ static void test_pneu_run__pressure_ramp__breaks_away_at_the_exact_pressure(void
   assert_close(leaves_at(&p, 4e5, 0.02, -1e4, 0), (k * (0.02 + x0) - F) / A, tol, 0);
 }
 
-static void test_pneu_run__pressure_ramp__hysteresis_is_twice_friction_over_area(void **state)
+TEST(test_pneu_run__pressure_ramp__hysteresis_is_twice_friction_over_area)
 {
   static const double friction[] = {20, 100, 480};
   int i;
@@ -143,7 +143,7 @@ static void test_pneu_run__pressure_ramp__hysteresis_is_twice_friction_over_area
   }
 }
 
-static void test_pneu_run__forces__are_positive_against_the_air(void **state)
+TEST(test_pneu_run__forces__are_positive_against_the_air)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double base = leaves_at(&p, 0, 0, 1e4, 0);
@@ -155,7 +155,7 @@ static void test_pneu_run__forces__are_positive_against_the_air(void **state)
 }
 
 /* Quasi-static: p A = k (x + x_0) +- F + c v with v = A rate/k once the start has died out. */
-static void test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop(void **state)
+TEST(test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop)
 {
   static fixture_sample s[801];
   const pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -185,7 +185,7 @@ static void test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop(void **s
 
 /* ---- other ends of the model ---- */
 
-static void test_pneu_run__no_stroke__is_a_vessel(void **state)
+TEST(test_pneu_run__no_stroke__is_a_vessel)
 {
   const pneu_params p = fixture_vessel(1e-4);
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 0, 0);
@@ -199,7 +199,7 @@ static void test_pneu_run__no_stroke__is_a_vessel(void **state)
   assert_true(e.n == 0 && rig.s.x == 0 && rig.s.v == 0 && rig.s.mode == PNEU_MODE_FIXED);
 }
 
-static void test_pneu_run__regulator__brings_a_vessel_to_its_set_point(void **state)
+TEST(test_pneu_run__regulator__brings_a_vessel_to_its_set_point)
 {
   static const double from[] = {-5e4, 0, 1.5e5, 3.9e5};
   pneu_params p = fixture_vessel(1e-3);
@@ -217,7 +217,7 @@ static void test_pneu_run__regulator__brings_a_vessel_to_its_set_point(void **st
 #ifndef PNEU_SINGLE
 /* A stem that is pushed beyond friction by no more than the rounding of the balance, 64 units in the last place of the
  * largest force, stays: the pressure at which it leaves is found by halving. */
-static void test_pneu_settle__push_within_rounding__stem_stays(void **state)
+TEST(test_pneu_settle__push_within_rounding__stem_stays)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -237,7 +237,7 @@ static void test_pneu_settle__push_within_rounding__stem_stays(void **state)
 #endif
 
 /* The opening is the distance from the set point over the band, and no more than wide open either way. */
-static void test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band(void **state)
+TEST(test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band)
 {
   static const double over[][2] = {{-0.5, 0.5}, {0.25, -0.25}, {-1.005, 1}, {1.005, -1}, {-3, 1}, {3, -1}};
   pneu_params p = fixture_vessel(1e-4);
@@ -251,7 +251,7 @@ static void test_pneu_observe__regulator_away_from_its_set_point__is_open_in_pro
   }
 }
 
-static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction(void **state)
+TEST(test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
@@ -263,7 +263,7 @@ static void test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_t
   assert_between(4e5 * ((double)rig.s.x + 0.01), 2e5 * 0.04 - 481, 2e5 * 0.04 + 481);
 }
 
-static void test_pneu_stem_extension__normal_and_reverse__mirror_each_other(void **state)
+TEST(test_pneu_stem_extension__normal_and_reverse__mirror_each_other)
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   assert_close(pneu_stem_extension(&m, (pneu_real)0.005, 0), 0.005, 0, 1e-6);
@@ -271,7 +271,7 @@ static void test_pneu_stem_extension__normal_and_reverse__mirror_each_other(void
 }
 
 /* Where a stem stops in equilibrium it must not chatter: set points that end in every place of the stroke. */
-static void test_pneu_run__regulator_at_many_set_points__always_ends(void **state)
+TEST(test_pneu_run__regulator_at_many_set_points__always_ends)
 {
   double band, set;
   for (band = 2e4; band < 1.1e5; band += 4e4)
@@ -289,7 +289,7 @@ static void test_pneu_run__regulator_at_many_set_points__always_ends(void **stat
 }
 
 /* A lagging transducer that regulates starts shut where pressure is at its set point. */
-static void test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays(void **state)
+TEST(test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
@@ -301,7 +301,7 @@ static void test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays(void *
   assert_close(rig.s.p, 2e5, TOL(1, 100), 0);
 }
 
-static void test_pneu_regulator_opening__error_over_band__is_held_within_one(void **state)
+TEST(test_pneu_regulator_opening__error_over_band__is_held_within_one)
 {
   assert_close(pneu_regulator_opening(100, 90, 40), 0.25, 0, 0);
   assert_close(pneu_regulator_opening(90, 100, 40), -0.25, 0, 0);
@@ -311,7 +311,7 @@ static void test_pneu_regulator_opening__error_over_band__is_held_within_one(voi
 
 /* ---- modes ---- */
 
-static void test_pneu_settle__at_rest__mode_follows_the_balance_of_forces(void **state)
+TEST(test_pneu_settle__at_rest__mode_follows_the_balance_of_forces)
 {
   static const struct {
     double p, x, v;
@@ -337,7 +337,7 @@ static void test_pneu_settle__at_rest__mode_follows_the_balance_of_forces(void *
   }
 }
 
-static void test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_for(void **state)
+TEST(test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_for)
 {
   static const struct {
     int before, which;
@@ -375,7 +375,7 @@ static void test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_fo
   }
 }
 
-static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(void **state)
+TEST(test_pneu_events__about_break_away__rise_through_zero_in_newtons)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 200e3, 0.01);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
@@ -394,7 +394,7 @@ static void test_pneu_events__about_break_away__rise_through_zero_in_newtons(voi
 }
 
 /* A chamber without air has no balance of forces: nothing to tell of the stem. */
-static void test_pneu_settle__chamber_without_air__stem_stays(void **state)
+TEST(test_pneu_settle__chamber_without_air__stem_stays)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 213e3, 0.01);
   pneu_real g[PNEU_EVENT_MAX], y[PNEU_STATE_MAX];
@@ -468,7 +468,7 @@ static void run_at_random(const pneu_model *m, uint64_t seed)
   assert_true(work.stats.events > 10);
 }
 
-static void test_pneu_run__random_commands_and_forces__modes_mean_what_they_say(void **state)
+TEST(test_pneu_run__random_commands_and_forces__modes_mean_what_they_say)
 {
   int actuator, gas, flow;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
@@ -482,7 +482,7 @@ static void test_pneu_run__random_commands_and_forces__modes_mean_what_they_say(
 }
 
 /* What holds a driven stem: p A - k (x + x_0) - external - c v - F sgn v, whatever force the input has. */
-static void test_pneu_observe__driven_stem__shows_the_force_that_holds_it(void **state)
+TEST(test_pneu_observe__driven_stem__shows_the_force_that_holds_it)
 {
   static const double speed[] = {0.01, -0.02, 0};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -504,32 +504,5 @@ static void test_pneu_observe__driven_stem__shows_the_force_that_holds_it(void *
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_run__coulomb_slide__stops_at_the_known_time_and_place),
-      cmocka_unit_test(test_pneu_run__free_fall__reaches_the_stop_at_the_known_time),
-      cmocka_unit_test(test_pneu_run__spring_and_mass__oscillates_at_its_natural_frequency),
-      cmocka_unit_test(test_pneu_run__viscous_terms__add_up_and_set_the_final_velocity),
-      cmocka_unit_test(test_pneu_run__pressure_ramp__breaks_away_at_the_exact_pressure),
-      cmocka_unit_test(test_pneu_run__pressure_ramp__hysteresis_is_twice_friction_over_area),
-      cmocka_unit_test(test_pneu_run__forces__are_positive_against_the_air),
-      cmocka_unit_test(test_pneu_run__slow_ramp_up_and_down__draws_the_static_loop),
-      cmocka_unit_test(test_pneu_run__no_stroke__is_a_vessel),
-      cmocka_unit_test(test_pneu_run__regulator__brings_a_vessel_to_its_set_point),
-#ifndef PNEU_SINGLE
-      cmocka_unit_test(test_pneu_settle__push_within_rounding__stem_stays),
-#endif
-      cmocka_unit_test(test_pneu_observe__regulator_away_from_its_set_point__is_open_in_proportion_up_to_the_band),
-      cmocka_unit_test(test_pneu_run__regulator_on_an_actuator__holds_pressure_and_leaves_the_stem_within_friction),
-      cmocka_unit_test(test_pneu_stem_extension__normal_and_reverse__mirror_each_other),
-      cmocka_unit_test(test_pneu_run__regulator_at_many_set_points__always_ends),
-      cmocka_unit_test(test_pneu_state_rest__lag_and_regulator_in_equilibrium__stays),
-      cmocka_unit_test(test_pneu_regulator_opening__error_over_band__is_held_within_one),
-      cmocka_unit_test(test_pneu_settle__at_rest__mode_follows_the_balance_of_forces),
-      cmocka_unit_test(test_pneu_settle__chamber_without_air__stem_stays),
-      cmocka_unit_test(test_pneu_switch__each_event__leads_to_the_mode_that_physics_asks_for),
-      cmocka_unit_test(test_pneu_events__about_break_away__rise_through_zero_in_newtons),
-      cmocka_unit_test(test_pneu_observe__driven_stem__shows_the_force_that_holds_it),
-      cmocka_unit_test(test_pneu_run__random_commands_and_forces__modes_mean_what_they_say),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

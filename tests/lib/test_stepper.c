@@ -68,13 +68,13 @@ static void check_order(int gas, double u_rate)
   assert_between(fixture_order(error[2], error[3]), ORDER - 0.5, ORDER + 1.5);
 }
 
-static void test_pneu_step__smooth_stretch__converges_with_its_order(void **state)
+TEST(test_pneu_step__smooth_stretch__converges_with_its_order)
 {
   check_order(PNEU_GAS_ISOTHERMAL, 0);
   check_order(PNEU_GAS_ENERGY, 0);
 }
 
-static void test_pneu_step__command_that_runs__converges_with_its_order(void **state)
+TEST(test_pneu_step__command_that_runs__converges_with_its_order)
 {
   check_order(PNEU_GAS_ISOTHERMAL, -400);
   check_order(PNEU_GAS_ENERGY, -400);
@@ -97,7 +97,7 @@ static int look_inside(void *context, const pneu_step_view *view)
   return 1;
 }
 
-static void test_pneu_dense__smooth_stretch__has_its_order(void **state)
+TEST(test_pneu_dense__smooth_stretch__has_its_order)
 {
   const double longest = ORDER == 5 ? 1e-4 : 2e-4, power = ORDER == 5 ? 5 : 3, below = ORDER == 5 ? 0.3 : 0.7;
   const fixture_rig rig = flying(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
@@ -136,7 +136,7 @@ static int ends_meet(void *context, const pneu_step_view *view)
   return 0;
 }
 
-static void test_pneu_dense__at_the_ends__is_the_step_itself(void **state)
+TEST(test_pneu_dense__at_the_ends__is_the_step_itself)
 {
   fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   const pneu_observer observer = {ends_meet, NULL, NULL};
@@ -146,7 +146,7 @@ static void test_pneu_dense__at_the_ends__is_the_step_itself(void **state)
 }
 
 /* A stem so light in so thick an oil that its velocity dies within 1e-11 s. */
-static void test_pneu_step__stiff_stretch_and_huge_step__decays(void **state)
+TEST(test_pneu_step__stiff_stretch_and_huge_step__decays)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
@@ -174,7 +174,7 @@ static double break_away_time(const pneu_params *p)
   return 2 * (sqrt(ps) - sqrt(ps - go)) / k;
 }
 
-static void test_pneu_run__break_away__is_located_to_a_nanosecond(void **state)
+TEST(test_pneu_run__break_away__is_located_to_a_nanosecond)
 {
   static const double tol[] = {1e-6, 1e-8, 1e-10};
   int actuator, i;
@@ -192,7 +192,7 @@ static void test_pneu_run__break_away__is_located_to_a_nanosecond(void **state)
 }
 
 /* However rough the steps, the event lies on its root: pressure is that of break-away. */
-static void test_pneu_run__rough_steps__event_lies_on_its_root(void **state)
+TEST(test_pneu_run__rough_steps__event_lies_on_its_root)
 {
   static const double tol[] = {1e-2, 1e-3, 1e-4};
   int actuator, i, gas;
@@ -212,7 +212,7 @@ static void test_pneu_run__rough_steps__event_lies_on_its_root(void **state)
 }
 
 /* A step that would carry the stem past the stop and back again ends its way at the stop. */
-static void test_pneu_step__two_events_in_one_step__takes_the_first(void **state)
+TEST(test_pneu_step__two_events_in_one_step__takes_the_first)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double w = 200;
@@ -229,7 +229,7 @@ static void test_pneu_step__two_events_in_one_step__takes_the_first(void **state
   }
 }
 
-static void test_pneu_step__force_jumps__stem_moves_at_once_in_one_step(void **state)
+TEST(test_pneu_step__force_jumps__stem_moves_at_once_in_one_step)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.01);
   pneu_workspace work = {0};
@@ -241,7 +241,7 @@ static void test_pneu_step__force_jumps__stem_moves_at_once_in_one_step(void **s
 }
 
 /* The same by single steps: the state just after the event tells its time. */
-static void test_pneu_step__break_away_within_a_step__is_located(void **state)
+TEST(test_pneu_step__break_away_within_a_step__is_located)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -257,7 +257,7 @@ static void test_pneu_step__break_away_within_a_step__is_located(void **state)
   assert_int_equal(after.mode, PNEU_MODE_UP);
 }
 
-static void test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics(void **state)
+TEST(test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics)
 {
   static const int want[] = {PNEU_MODE_UP, PNEU_MODE_UPPER, PNEU_MODE_DOWN, PNEU_MODE_LOWER};
   int actuator, gas, flow;
@@ -314,7 +314,7 @@ static double error_in_steps(int gas, int flow, double dt)
 }
 
 /* What pneu.h says of it. */
-static void test_pneu_step__fill_and_vent__is_as_exact_as_documented(void **state)
+TEST(test_pneu_step__fill_and_vent__is_as_exact_as_documented)
 {
   static const double dt[] = {1e-3, 1e-2, 5e-2}, most[2][3] = {{1e-5, 1e-4, 1e-4}, {4e-6, 5e-5, 5e-5}};
   int gas, flow, i;
@@ -326,7 +326,7 @@ static void test_pneu_step__fill_and_vent__is_as_exact_as_documented(void **stat
       }
 }
 
-static void test_pneu_run__smaller_tolerance__error_falls_with_it(void **state)
+TEST(test_pneu_run__smaller_tolerance__error_falls_with_it)
 {
   static const double tol[] = {1e-4, 1e-6, 1e-8};
   const pneu_state exact = fill_for(1.2, 1e-10, 0, NULL);
@@ -346,7 +346,7 @@ static void test_pneu_run__smaller_tolerance__error_falls_with_it(void **state)
 #endif
 
 /* Near equal pressures the flow is so steep that the error estimate of a long step can miss it. */
-static void test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures(void **state)
+TEST(test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures)
 {
   static fixture_sample s[320];
   int actuator, gas, flow, i, n;
@@ -368,7 +368,7 @@ static void test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures(v
 }
 
 /* A change of the command through zero while pressure is at that of the supply is no leap either. */
-static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **state)
+TEST(test_pneu_run__lagging_command_through_zero__takes_few_steps)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig;
@@ -382,7 +382,7 @@ static void test_pneu_run__lagging_command_through_zero__takes_few_steps(void **
   assert_between(work.stats.steps, 10, 400);
 }
 
-static void test_pneu_run__in_two_parts__ends_where_one_run_does(void **state)
+TEST(test_pneu_run__in_two_parts__ends_where_one_run_does)
 {
   const fixture_rig rig = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   pneu_state one = rig.s, two = rig.s;
@@ -392,7 +392,7 @@ static void test_pneu_run__in_two_parts__ends_where_one_run_does(void **state)
   assert_close(apart(&one, &two), 0, TOL(2e-9, 1e-4), 0);
 }
 
-static void test_pneu_run__no_time__changes_the_mode_at_most(void **state)
+TEST(test_pneu_run__no_time__changes_the_mode_at_most)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER), 1, 2e5, 0.01);
   pneu_state was = rig.s;
@@ -404,7 +404,7 @@ static void test_pneu_run__no_time__changes_the_mode_at_most(void **state)
 }
 
 /* Every end of a run is reached, whatever its length: sums of steps round. */
-static void test_pneu_run__any_duration__reaches_its_end(void **state)
+TEST(test_pneu_run__any_duration__reaches_its_end)
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   uint64_t seed = 3;
@@ -477,7 +477,7 @@ static int look_at_bend(void *context, const pneu_step_view *view)
 }
 
 /* With order 4 position and velocity inside a step tell the same story. */
-static void test_pneu_dense__order_4__position_is_joined_by_its_velocities(void **state)
+TEST(test_pneu_dense__order_4__position_is_joined_by_its_velocities)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), 1, 0, 0);
   bend b = {0, 0};
@@ -491,7 +491,7 @@ static void test_pneu_dense__order_4__position_is_joined_by_its_velocities(void 
 }
 #endif
 
-static void test_pneu_run__longest_step__is_kept_and_steps_join(void **state)
+TEST(test_pneu_run__longest_step__is_kept_and_steps_join)
 {
   walk w = {0, 0.01, 0, 0};
   assert_int_equal(run_observed(&w, 3, 0), PNEU_OK);
@@ -510,7 +510,7 @@ static int note_first(void *context, const pneu_step_view *view)
   return 0;
 }
 
-static void test_pneu_run__step_to_try_first__is_tried_and_forgotten(void **state)
+TEST(test_pneu_run__step_to_try_first__is_tried_and_forgotten)
 {
   fixture_rig rig = sliding(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   const pneu_observer observer = {note_first, NULL, NULL};
@@ -522,7 +522,7 @@ static void test_pneu_run__step_to_try_first__is_tried_and_forgotten(void **stat
   assert_close(work.h, 0, 0, 0);
 }
 
-static void test_pneu_run__observer_stops__says_so(void **state)
+TEST(test_pneu_run__observer_stops__says_so)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   walk w = {0, 1, 0, 5}, at_event = {0, 1, 0, 0};
@@ -532,7 +532,7 @@ static void test_pneu_run__observer_stops__says_so(void **state)
   assert_close(at_event.t, break_away_time(&p), 1e-5, 0);
 }
 
-static void test_pneu_run__content_of_the_workspace__means_nothing(void **state)
+TEST(test_pneu_run__content_of_the_workspace__means_nothing)
 {
   const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED);
   pneu_workspace clean = {0}, dirty;
@@ -552,7 +552,7 @@ static void test_pneu_run__content_of_the_workspace__means_nothing(void **state)
 
 /* ---- single steps ---- */
 
-static void test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run(void **state)
+TEST(test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run)
 {
   int actuator, gas, i;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++)
@@ -581,7 +581,7 @@ static int state_is_finite(const pneu_state *s)
 }
 
 /* Any state within the stops, any command, forces to 5 kN: one call is done within a few parts. */
-static void test_pneu_step__anywhere__work_is_bounded(void **state)
+TEST(test_pneu_step__anywhere__work_is_bounded)
 {
   uint64_t seed = 11;
   int i;
@@ -666,7 +666,7 @@ static int check_odd_step(const pneu_model *m, uint64_t *seed, int i, pneu_delay
 
 /* Whatever lies in the documented ranges: the step ends well, within its bound, on a state that can be stepped again.
  * Before a stem was held that has used up the parts, one step in a thousand was refused, and all after it. */
-static void test_pneu_step__odd_actuators_and_hostile_inputs__ends_well_within_the_bound(void **state)
+TEST(test_pneu_step__odd_actuators_and_hostile_inputs__ends_well_within_the_bound)
 {
   uint64_t seed = 77;
   int i, j, held = 0, refused = 0;
@@ -728,7 +728,7 @@ static void ringing_bristles(double damping, pneu_model *m, pneu_input *input, p
   start->mode = PNEU_MODE_UP;
 }
 
-static void test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so(void **state)
+TEST(test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so)
 {
   const double dt = 0.00189558244;
   pneu_model m;
@@ -745,7 +745,7 @@ static void test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so(void 
 }
 
 /* Twenty times as long, it cannot be followed: it says so, and the gas obeys supply, ambient and orifice. */
-static void test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on(void **state)
+TEST(test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on)
 {
   const double dt = 0.04;
   pneu_model m;
@@ -775,7 +775,7 @@ static void test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on(void **s
 
 /* Nor does the gas of a held stem leave its bounds through orifices nine times as wide: where its parts do not do, as
  * in most of the longer steps, it says so. */
-static void test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_so(void **state)
+TEST(test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_so)
 {
   pneu_model m;
   pneu_input input;
@@ -806,7 +806,7 @@ static void test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_
 
 /* Stribeck friction lets a stem go that is soon caught again; in single precision the step that was to end where it is
  * caught carried it 20 mm below its lower stop. */
-static void test_pneu_run__stem_caught_again__stays_between_its_stops(void **state)
+TEST(test_pneu_run__stem_caught_again__stays_between_its_stops)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_options options = fixture_options(1e-4);
@@ -841,7 +841,7 @@ static void test_pneu_run__stem_caught_again__stays_between_its_stops(void **sta
 
 /* A vessel that is filled within the step: the estimate alone would let the pressure end 22 % of the supply beyond it,
  * and in single precision 7 %. */
-static void test_pneu_step__filled_in_it__ends_at_the_supply(void **state)
+TEST(test_pneu_step__filled_in_it__ends_at_the_supply)
 {
   static const struct {
     double volume, orifice, from, dt;
@@ -865,7 +865,7 @@ static void test_pneu_step__filled_in_it__ends_at_the_supply(void **state)
 
 /* Stribeck friction lets go within the step, of a stem that a newton more or less releases earlier or later. In single
  * precision the stem was thrown back at each release and came to 0.7 of the stroke or 350 kPa elsewhere. */
-static void test_pneu_step__stribeck_friction_lets_go_in_it__as_small_steps(void **state)
+TEST(test_pneu_step__stribeck_friction_lets_go_in_it__as_small_steps)
 {
   const double dt = 0.00157464409;
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -898,7 +898,7 @@ static void test_pneu_step__stribeck_friction_lets_go_in_it__as_small_steps(void
 }
 
 /* Whoever sets a state may put the stem onto a stop with a velocity into it: it has hit the stop, and lost no time. */
-static void test_pneu_step__starts_into_a_stop__is_at_rest_there(void **state)
+TEST(test_pneu_step__starts_into_a_stop__is_at_rest_there)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int upper;
@@ -975,22 +975,22 @@ static void check_all_spoilt(spoilt *check, double value)
       check(&m, &scenes[j], i, value);
 }
 
-static void test_pneu_step__nan_in_state_or_input__is_refused_and_state_kept(void **state)
+TEST(test_pneu_step__nan_in_state_or_input__is_refused_and_state_kept)
 {
   check_all_spoilt(check_spoilt_step, NAN);
 }
 
-static void test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept(void **state)
+TEST(test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept)
 {
   check_all_spoilt(check_spoilt_step, INFINITY);
 }
 
-static void test_pneu_run__nan_in_state_or_input__is_refused(void **state)
+TEST(test_pneu_run__nan_in_state_or_input__is_refused)
 {
   check_all_spoilt(check_spoilt_run, NAN);
 }
 
-static void test_pneu_step__step_not_positive__is_refused_and_state_kept(void **state)
+TEST(test_pneu_step__step_not_positive__is_refused_and_state_kept)
 {
   static const double dt[] = {-1e-3, NAN, INFINITY};
   const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
@@ -1005,7 +1005,7 @@ static void test_pneu_step__step_not_positive__is_refused_and_state_kept(void **
   }
 }
 
-static void test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_state_kept(void **state)
+TEST(test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_state_kept)
 {
   static const double bad[][2] = {{NAN, 1e-6},   {INFINITY, 1e-6}, {-1, 1e-6}, {-1e-9, 1e-6}, {1, NAN},
                                   {1, INFINITY}, {1, 0},           {1, -1},    {1, 9e-11},    {1, 1.1e-2}};
@@ -1022,7 +1022,7 @@ static void test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_st
   }
 }
 
-static void test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_taken(void **state)
+TEST(test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_taken)
 {
   static const double good[][2] = {{0, 1e-6}, {1e-3, TOL(1e-10, 1e-6)}, {1e-3, 1e-2}};
   const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
@@ -1037,7 +1037,7 @@ static void test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_tak
   }
 }
 
-static void test_pneu_run__few_steps_allowed__says_so_with_the_last_state(void **state)
+TEST(test_pneu_run__few_steps_allowed__says_so_with_the_last_state)
 {
   const fixture_rig rig = sliding(PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
   pneu_state at = rig.s;
@@ -1050,7 +1050,7 @@ static void test_pneu_run__few_steps_allowed__says_so_with_the_last_state(void *
 }
 
 /* Whoever drives the stem may drive it to where the chamber has no volume. */
-static void test_pneu_run__driven_to_where_there_is_no_volume__is_refused(void **state)
+TEST(test_pneu_run__driven_to_where_there_is_no_volume__is_refused)
 {
   const pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_rig rig = fixture_at(fixture_model_roles(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED, 0, 1), 1, 1e5, 0.01);
@@ -1067,7 +1067,7 @@ static void test_pneu_run__driven_to_where_there_is_no_volume__is_refused(void *
 
 /* A stem that creeps to rest at the first instant of a long step: the dense output of the whole step has the event, and
  * no shorter one. Found in a fit; to all digits, because others do not show it. */
-static void test_pneu_run__event_that_only_the_whole_step_has__comes_to_an_end(void **state)
+TEST(test_pneu_run__event_that_only_the_whole_step_has__comes_to_an_end)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   pneu_model m;
@@ -1109,7 +1109,7 @@ static int turn_force(void *context, pneu_real t, const pneu_state *state, int b
   return 0;
 }
 
-static void test_pneu_run__event_after_event_at_one_time__is_ended(void **state)
+TEST(test_pneu_run__event_after_event_at_one_time__is_ended)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER), 0, 2e5, 0.01);
   const pneu_observer observer = {NULL, turn_force, &rig.input};
@@ -1121,7 +1121,7 @@ static void test_pneu_run__event_after_event_at_one_time__is_ended(void **state)
 }
 
 /* Numbers, but so large that no slope is one. */
-static void test_pneu_run__pressure_beyond_all_sense__is_an_error(void **state)
+TEST(test_pneu_run__pressure_beyond_all_sense__is_an_error)
 {
   const pneu_params p = fixture_vessel(1e-3);
   fixture_rig rig = fixture_at(fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), -1, 1e5, 0);
@@ -1131,7 +1131,7 @@ static void test_pneu_run__pressure_beyond_all_sense__is_an_error(void **state)
   assert_int_equal(pneu_run(&rig.m, &rig.s, &rig.input, 1, &options, NULL, &work), PNEU_E_STEP_SIZE);
 }
 
-static void test_pneu_step__pressure_beyond_all_sense__is_refused_and_state_kept(void **state)
+TEST(test_pneu_step__pressure_beyond_all_sense__is_refused_and_state_kept)
 {
   fixture_rig rig = fixture_at(fixture_r1_400(PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED), -1, 1e5, 0.01);
   pneu_state before;
@@ -1143,7 +1143,7 @@ static void test_pneu_step__pressure_beyond_all_sense__is_refused_and_state_kept
 }
 
 /* So loose a tolerance lets a step end below vacuum: it is refused. */
-static void test_pneu_run__step_that_ends_below_vacuum__is_refused(void **state)
+TEST(test_pneu_run__step_that_ends_below_vacuum__is_refused)
 {
   pneu_params p = fixture_vessel(1e-3);
   pneu_model m;
@@ -1164,7 +1164,7 @@ static void test_pneu_run__step_that_ends_below_vacuum__is_refused(void **state)
 }
 
 /* Numbers, but outside the ranges that the header gives. */
-static void test_pneu_step__outside_documented_ranges__is_refused_and_state_kept(void **state)
+TEST(test_pneu_step__outside_documented_ranges__is_refused_and_state_kept)
 {
   const pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   int i;
@@ -1193,58 +1193,5 @@ static void test_pneu_step__outside_documented_ranges__is_refused_and_state_kept
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-#ifndef PNEU_SINGLE
-    cmocka_unit_test(test_pneu_step__smooth_stretch__converges_with_its_order),
-    cmocka_unit_test(test_pneu_step__command_that_runs__converges_with_its_order),
-    cmocka_unit_test(test_pneu_dense__smooth_stretch__has_its_order),
-    cmocka_unit_test(test_pneu_step__fill_and_vent__is_as_exact_as_documented),
-    cmocka_unit_test(test_pneu_run__smaller_tolerance__error_falls_with_it),
-#endif
-#if PNEU_ORDER == 4
-    cmocka_unit_test(test_pneu_dense__order_4__position_is_joined_by_its_velocities),
-#endif
-    cmocka_unit_test(test_pneu_dense__at_the_ends__is_the_step_itself),
-    cmocka_unit_test(test_pneu_step__stiff_stretch_and_huge_step__decays),
-    cmocka_unit_test(test_pneu_run__break_away__is_located_to_a_nanosecond),
-    cmocka_unit_test(test_pneu_run__rough_steps__event_lies_on_its_root),
-    cmocka_unit_test(test_pneu_step__two_events_in_one_step__takes_the_first),
-    cmocka_unit_test(test_pneu_step__force_jumps__stem_moves_at_once_in_one_step),
-    cmocka_unit_test(test_pneu_step__break_away_within_a_step__is_located),
-    cmocka_unit_test(test_pneu_run__fill_and_vent__has_no_more_events_than_the_physics),
-    cmocka_unit_test(test_pneu_run__loose_tolerance__does_not_leap_over_equal_pressures),
-    cmocka_unit_test(test_pneu_run__lagging_command_through_zero__takes_few_steps),
-    cmocka_unit_test(test_pneu_run__in_two_parts__ends_where_one_run_does),
-    cmocka_unit_test(test_pneu_run__no_time__changes_the_mode_at_most),
-    cmocka_unit_test(test_pneu_run__any_duration__reaches_its_end),
-    cmocka_unit_test(test_pneu_run__longest_step__is_kept_and_steps_join),
-    cmocka_unit_test(test_pneu_run__step_to_try_first__is_tried_and_forgotten),
-    cmocka_unit_test(test_pneu_run__observer_stops__says_so),
-    cmocka_unit_test(test_pneu_run__content_of_the_workspace__means_nothing),
-    cmocka_unit_test(test_pneu_step__a_millisecond_at_a_time__follows_the_adaptive_run),
-    cmocka_unit_test(test_pneu_step__anywhere__work_is_bounded),
-    cmocka_unit_test(test_pneu_step__odd_actuators_and_hostile_inputs__ends_well_within_the_bound),
-    cmocka_unit_test(test_pneu_step__bristles_ring_in_it__as_small_steps_or_says_so),
-    cmocka_unit_test(test_pneu_step__parts_used_up__stem_is_held_and_gas_goes_on),
-    cmocka_unit_test(test_pneu_step__parts_used_up_by_fast_gas__is_in_its_bounds_or_says_so),
-    cmocka_unit_test(test_pneu_run__stem_caught_again__stays_between_its_stops),
-    cmocka_unit_test(test_pneu_step__filled_in_it__ends_at_the_supply),
-    cmocka_unit_test(test_pneu_step__stribeck_friction_lets_go_in_it__as_small_steps),
-    cmocka_unit_test(test_pneu_step__starts_into_a_stop__is_at_rest_there),
-    cmocka_unit_test(test_pneu_step__nan_in_state_or_input__is_refused_and_state_kept),
-    cmocka_unit_test(test_pneu_step__infinity_in_state_or_input__is_refused_and_state_kept),
-    cmocka_unit_test(test_pneu_run__nan_in_state_or_input__is_refused),
-    cmocka_unit_test(test_pneu_step__step_not_positive__is_refused_and_state_kept),
-    cmocka_unit_test(test_pneu_run__duration_or_tolerance_out_of_range__is_refused_and_state_kept),
-    cmocka_unit_test(test_pneu_run__duration_or_tolerance_at_the_end_of_its_range__is_taken),
-    cmocka_unit_test(test_pneu_run__few_steps_allowed__says_so_with_the_last_state),
-    cmocka_unit_test(test_pneu_run__driven_to_where_there_is_no_volume__is_refused),
-    cmocka_unit_test(test_pneu_run__event_after_event_at_one_time__is_ended),
-    cmocka_unit_test(test_pneu_run__event_that_only_the_whole_step_has__comes_to_an_end),
-    cmocka_unit_test(test_pneu_run__pressure_beyond_all_sense__is_an_error),
-    cmocka_unit_test(test_pneu_step__pressure_beyond_all_sense__is_refused_and_state_kept),
-    cmocka_unit_test(test_pneu_run__step_that_ends_below_vacuum__is_refused),
-    cmocka_unit_test(test_pneu_step__outside_documented_ranges__is_refused_and_state_kept),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -62,7 +62,7 @@ static int offer(const pneu_term *term)
   return status;
 }
 
-static void test_pneu_model_terms__good_terms__are_used_where_they_lie(void **state)
+TEST(test_pneu_model_terms__good_terms__are_used_where_they_lie)
 {
   const pneu_term term[2] = {good_term(), good_term()};
   pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -74,7 +74,7 @@ static void test_pneu_model_terms__good_terms__are_used_where_they_lie(void **st
   assert_int_equal(m.n_terms, 0);
 }
 
-static void test_pneu_model_terms__unknown_equation_or_argument__is_refused(void **state)
+TEST(test_pneu_model_terms__unknown_equation_or_argument__is_refused)
 {
   pneu_term term = good_term();
   assert_int_equal(offer(&term), PNEU_OK);
@@ -89,7 +89,7 @@ static void test_pneu_model_terms__unknown_equation_or_argument__is_refused(void
   assert_int_equal(offer(&term), PNEU_E_LAW);
 }
 
-static void test_pneu_model_terms__bad_number_of_knots__is_refused(void **state)
+TEST(test_pneu_model_terms__bad_number_of_knots__is_refused)
 {
   static const int n[] = {-1, 0, 1, PNEU_TERM_KNOTS + 1};
   pneu_term term = sampled(PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, PNEU_TERM_KNOTS, 0, 0.02, zigzag);
@@ -103,7 +103,7 @@ static void test_pneu_model_terms__bad_number_of_knots__is_refused(void **state)
   assert_int_equal(offer(&term), PNEU_OK);
 }
 
-static void test_pneu_model_terms__no_finite_numbers__are_refused(void **state)
+TEST(test_pneu_model_terms__no_finite_numbers__are_refused)
 {
   static const double odd[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
   int i, k;
@@ -122,7 +122,7 @@ static void test_pneu_model_terms__no_finite_numbers__are_refused(void **state)
   }
 }
 
-static void test_pneu_model_terms__ends_swapped_or_equal__are_refused(void **state)
+TEST(test_pneu_model_terms__ends_swapped_or_equal__are_refused)
 {
   pneu_term term = good_term();
   term.to = term.from;
@@ -131,7 +131,7 @@ static void test_pneu_model_terms__ends_swapped_or_equal__are_refused(void **sta
   assert_int_equal(offer(&term), PNEU_E_PARAM);
 }
 
-static void test_pneu_model_terms__negative_count__is_refused(void **state)
+TEST(test_pneu_model_terms__negative_count__is_refused)
 {
   const pneu_term term = good_term();
   pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
@@ -150,7 +150,7 @@ static double shown_at(const pneu_model *m, double x)
   return fixture_look(m, &s, &input).shown_p - 2e5;
 }
 
-static void test_pneu_add_terms__knots_middles_and_beyond__lie_on_the_lines(void **state)
+TEST(test_pneu_add_terms__knots_middles_and_beyond__lie_on_the_lines)
 {
   pneu_model m = fixture_r1_400(PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER);
   pneu_term term = sampled(PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_POSITION, 9, 0.004, 0.016, zigzag);
@@ -241,7 +241,7 @@ static int follows(int sum, int other)
   return sum == other || (sum == IN_T && other == IN) || ((sum == IN || sum == IN_T) && other == SUPPLY);
 }
 
-static void test_pneu_add_terms__each_equation_and_argument__changes_its_sum_only(void **state)
+TEST(test_pneu_add_terms__each_equation_and_argument__changes_its_sum_only)
 {
   static const place places[] = {{PNEU_TERM_SUPPLY, SUPPLY, 4096, 1},    {PNEU_TERM_FORCE, FORCE, 64, -1},
                                  {PNEU_TERM_FRICTION, FRICTION, 64, 1},  {PNEU_TERM_FLOW, IN, 1e-4, 1},
@@ -263,7 +263,7 @@ static void test_pneu_add_terms__each_equation_and_argument__changes_its_sum_onl
     }
 }
 
-static void test_pneu_add_terms__several_on_one_equation__add_up(void **state)
+TEST(test_pneu_add_terms__several_on_one_equation__add_up)
 {
   const pneu_term term[3] = {line(PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, 64),
                              line(PNEU_TERM_FRICTION, PNEU_TERM_OVER_VELOCITY, 32),
@@ -275,7 +275,7 @@ static void test_pneu_add_terms__several_on_one_equation__add_up(void **state)
 }
 
 /* 480 N of dry friction. */
-static void test_pneu_add_terms__friction_less_than_none__is_none(void **state)
+TEST(test_pneu_add_terms__friction_less_than_none__is_none)
 {
   pneu_term term = line(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, -200);
   double d[SUMS];
@@ -287,7 +287,7 @@ static void test_pneu_add_terms__friction_less_than_none__is_none(void **state)
 }
 
 /* Bristles bend until they carry the level with the term: no rate is left there. */
-static void test_pneu_add_terms__friction_with_bristles__is_in_their_level(void **state)
+TEST(test_pneu_add_terms__friction_with_bristles__is_in_their_level)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const pneu_term term = line(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 120);
@@ -310,7 +310,7 @@ static void test_pneu_add_terms__friction_with_bristles__is_in_their_level(void 
 }
 
 /* No temperature of its own, no balance of energy, or no balance at all: nothing to heat, nothing to fill. */
-static void test_pneu_add_terms__heat_and_flow_where_they_cannot_act__do_nothing(void **state)
+TEST(test_pneu_add_terms__heat_and_flow_where_they_cannot_act__do_nothing)
 {
   const pneu_term heat = line(PNEU_TERM_HEAT, PNEU_TERM_OVER_POSITION, 10),
                   flow = line(PNEU_TERM_FLOW, PNEU_TERM_OVER_POSITION, 1e-4);
@@ -363,7 +363,7 @@ static void without_clock(const pneu_model *m, pneu_real f[PNEU_STATE_MAX])
   f[PNEU_STATE_MAX - 1] = 0;
 }
 
-static void test_pneu_run__no_terms__is_the_base_model_bit_for_bit(void **state)
+TEST(test_pneu_run__no_terms__is_the_base_model_bit_for_bit)
 {
   static fixture_sample base[SAMPLES], none[SAMPLES];
   const pneu_term term = good_term();
@@ -379,7 +379,7 @@ static void test_pneu_run__no_terms__is_the_base_model_bit_for_bit(void **state)
 
 /* The right-hand side is the same bit for bit but for the clock, which goes on by itself; the Jacobian is by
  * differences, which moves the steps, as the clock does. */
-static void test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_bit(void **state)
+TEST(test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_bit)
 {
   static const int modes[] = {PNEU_MODE_UP, PNEU_MODE_DOWN, PNEU_MODE_STUCK, PNEU_MODE_LOWER};
   pneu_term term[ALL];
@@ -405,7 +405,7 @@ static void test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_b
     }
 }
 
-static void test_pneu_run__terms_of_nothing__is_the_base_model_to_the_stepper_s_tolerance(void **state)
+TEST(test_pneu_run__terms_of_nothing__is_the_base_model_to_the_stepper_s_tolerance)
 {
   static fixture_sample base[SAMPLES], nothing[SAMPLES];
   pneu_term term[ALL];
@@ -491,7 +491,7 @@ static void assert_second_order(const pneu_params *p, int equation, int argument
   }
 }
 
-static void test_pneu_run__hardening_spring_by_more_and_more_knots__converges_in_second_order(void **state)
+TEST(test_pneu_run__hardening_spring_by_more_and_more_knots__converges_in_second_order)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_need("spring_hardening");
@@ -499,7 +499,7 @@ static void test_pneu_run__hardening_spring_by_more_and_more_knots__converges_in
   assert_second_order(&p, PNEU_TERM_FORCE, PNEU_TERM_OVER_POSITION, 0, 0.02, hardening);
 }
 
-static void test_pneu_run__leak_by_more_and_more_knots__converges_in_second_order(void **state)
+TEST(test_pneu_run__leak_by_more_and_more_knots__converges_in_second_order)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   fixture_need("chamber_leak");
@@ -508,7 +508,7 @@ static void test_pneu_run__leak_by_more_and_more_knots__converges_in_second_orde
 }
 
 /* A straight line needs two knots, and more make no difference. */
-static void test_pneu_run__friction_that_grows_along_the_stroke__is_exact_by_any_number_of_knots(void **state)
+TEST(test_pneu_run__friction_that_grows_along_the_stroke__is_exact_by_any_number_of_knots)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   int n;
@@ -536,7 +536,7 @@ static double relief(double p)
 }
 
 /* Knots make steps: each changes a slope, and what is fast in the model answers. */
-static void test_pneu_run__rough_tables__take_a_bounded_number_of_steps(void **state)
+TEST(test_pneu_run__rough_tables__take_a_bounded_number_of_steps)
 {
   const pneu_term term[] = {
       sampled(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, PNEU_TERM_KNOTS, 0, 0.02, bump),
@@ -557,7 +557,7 @@ static void test_pneu_run__rough_tables__take_a_bounded_number_of_steps(void **s
 }
 
 /* Firmware's steps of 1 ms end where the run with error control does. */
-static void test_pneu_step__terms__follow_the_run(void **state)
+TEST(test_pneu_step__terms__follow_the_run)
 {
   const pneu_term term[2] = {sampled(PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 17, 0, 0.02, bump),
                              sampled(PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 17, 0, 4e5, relief)};
@@ -596,7 +596,7 @@ static void check_break_away(double x, double rate)
   assert_close(events.p[0], balance + way * (480 + bump(x)) / 0.04, TOL(1, 100), 0);
 }
 
-static void test_pneu_run__friction_of_a_place__holds_there_against_both_directions(void **state)
+TEST(test_pneu_run__friction_of_a_place__holds_there_against_both_directions)
 {
   check_break_away(0.005, 1e4);
   check_break_away(0.005, -1e4);
@@ -605,7 +605,7 @@ static void test_pneu_run__friction_of_a_place__holds_there_against_both_directi
 }
 
 /* The table is the line from 1e-5 to 3e-5 kg/s over the stroke, which is passed in 2 s. */
-static void test_pneu_run__given_position__flow_of_a_place_fills_the_chamber(void **state)
+TEST(test_pneu_run__given_position__flow_of_a_place_fills_the_chamber)
 {
   pneu_params p = fixture_vessel(1e-3);
   const pneu_term term = line(PNEU_TERM_FLOW, PNEU_TERM_OVER_POSITION, 1e-5);
@@ -625,7 +625,7 @@ static void test_pneu_run__given_position__flow_of_a_place_fills_the_chamber(voi
 }
 
 /* A flow that changes its sign with pressure settles where it is nothing, under every chamber law. */
-static void test_pneu_run__flow_through_zero__settles_there(void **state)
+TEST(test_pneu_run__flow_through_zero__settles_there)
 {
   const pneu_params p = fixture_vessel(1e-3);
   const pneu_term term = {PNEU_TERM_FLOW, PNEU_TERM_OVER_PRESSURE, 2, 0, 200000, {(pneu_real)1e-4, (pneu_real)-1e-4}};
@@ -642,7 +642,7 @@ static void test_pneu_run__flow_through_zero__settles_there(void **state)
 }
 
 /* W of heat into a shut vessel of the energy law: p' = (gamma - 1) W/V. */
-static void test_pneu_run__constant_heat__raises_the_pressure(void **state)
+TEST(test_pneu_run__constant_heat__raises_the_pressure)
 {
   const pneu_params p = fixture_vessel(1e-3);
   const pneu_term term = {PNEU_TERM_HEAT, PNEU_TERM_OVER_OPENING, 2, 0, 1, {10, 500}};
@@ -654,31 +654,5 @@ static void test_pneu_run__constant_heat__raises_the_pressure(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_model_terms__good_terms__are_used_where_they_lie),
-      cmocka_unit_test(test_pneu_model_terms__unknown_equation_or_argument__is_refused),
-      cmocka_unit_test(test_pneu_model_terms__bad_number_of_knots__is_refused),
-      cmocka_unit_test(test_pneu_model_terms__no_finite_numbers__are_refused),
-      cmocka_unit_test(test_pneu_model_terms__ends_swapped_or_equal__are_refused),
-      cmocka_unit_test(test_pneu_model_terms__negative_count__is_refused),
-      cmocka_unit_test(test_pneu_add_terms__knots_middles_and_beyond__lie_on_the_lines),
-      cmocka_unit_test(test_pneu_add_terms__each_equation_and_argument__changes_its_sum_only),
-      cmocka_unit_test(test_pneu_add_terms__several_on_one_equation__add_up),
-      cmocka_unit_test(test_pneu_add_terms__friction_less_than_none__is_none),
-      cmocka_unit_test(test_pneu_add_terms__friction_with_bristles__is_in_their_level),
-      cmocka_unit_test(test_pneu_add_terms__heat_and_flow_where_they_cannot_act__do_nothing),
-      cmocka_unit_test(test_pneu_run__no_terms__is_the_base_model_bit_for_bit),
-      cmocka_unit_test(test_pneu_rhs__terms_of_nothing__is_that_of_the_base_model_bit_for_bit),
-      cmocka_unit_test(test_pneu_run__terms_of_nothing__is_the_base_model_to_the_stepper_s_tolerance),
-      cmocka_unit_test(test_pneu_run__hardening_spring_by_more_and_more_knots__converges_in_second_order),
-      cmocka_unit_test(test_pneu_run__leak_by_more_and_more_knots__converges_in_second_order),
-      cmocka_unit_test(test_pneu_run__friction_that_grows_along_the_stroke__is_exact_by_any_number_of_knots),
-      cmocka_unit_test(test_pneu_run__rough_tables__take_a_bounded_number_of_steps),
-      cmocka_unit_test(test_pneu_step__terms__follow_the_run),
-      cmocka_unit_test(test_pneu_run__friction_of_a_place__holds_there_against_both_directions),
-      cmocka_unit_test(test_pneu_run__given_position__flow_of_a_place_fills_the_chamber),
-      cmocka_unit_test(test_pneu_run__flow_through_zero__settles_there),
-      cmocka_unit_test(test_pneu_run__constant_heat__raises_the_pressure),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

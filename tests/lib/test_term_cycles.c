@@ -53,7 +53,7 @@ static double closed_form(const pneu_term *term, double t)
   return sum;
 }
 
-static void test_pneu_add_terms__cosine_or_sine__is_the_closed_form(void **state)
+TEST(test_pneu_add_terms__cosine_or_sine__is_the_closed_form)
 {
   static const double t[] = {0, 0.125, 0.25, 0.5, 1, 3, 8.5, 1024.25, -0.25}; /* [s] with a period of 1 s */
   static const double want[][2] = {
@@ -71,7 +71,7 @@ static void test_pneu_add_terms__cosine_or_sine__is_the_closed_form(void **state
   }
 }
 
-static void test_pneu_add_terms__harmonics__are_the_closed_form(void **state)
+TEST(test_pneu_add_terms__harmonics__are_the_closed_form)
 {
   static const int sizes[] = {2, 4, 6, MOST};
   uint64_t seed = 11;
@@ -94,7 +94,7 @@ static void test_pneu_add_terms__harmonics__are_the_closed_form(void **state)
 }
 
 /* With states of effects, and a temperature, before the clock in the packed vector. */
-static void test_pneu_add_terms__clock_behind_other_states__is_read_as_time(void **state)
+TEST(test_pneu_add_terms__clock_behind_other_states__is_read_as_time)
 {
   static const double amplitude[] = {1000, -500}, t[] = {0, 0.3, 1.7};
   const pneu_term term = cycle(SHOWN, 1, 2, amplitude);
@@ -119,7 +119,7 @@ static void test_pneu_add_terms__clock_behind_other_states__is_read_as_time(void
     assert_close(shown_at(&m, t[i]), closed_form(&term, t[i]), TOL(1e-8, 0.5), 0);
 }
 
-static void test_pneu_model_terms__odd_number_over_a_cycle__is_refused(void **state)
+TEST(test_pneu_model_terms__odd_number_over_a_cycle__is_refused)
 {
   static const double value[MOST] = {1, 2, 3};
   pneu_term term = cycle(FORCE, 1, 2, value);
@@ -154,7 +154,7 @@ static void switch_on(pneu_params *p, int with_states)
 }
 
 /* Effects keep their places, and the clock comes after them; it goes again with the last term over a cycle. */
-static void test_pneu_model_terms__cycle__brings_a_clock_and_takes_it_away(void **state)
+TEST(test_pneu_model_terms__cycle__brings_a_clock_and_takes_it_away)
 {
   static const double value[] = {1, 2};
   const pneu_term over_position = {FORCE, PNEU_TERM_OVER_POSITION, 2, 0, 1, {1, 2}};
@@ -189,7 +189,7 @@ static void test_pneu_model_terms__cycle__brings_a_clock_and_takes_it_away(void 
 }
 
 /* All states there can be fill the room to the last place. */
-static void test_pneu_model_terms__every_state_at_once__fills_the_room(void **state)
+TEST(test_pneu_model_terms__every_state_at_once__fills_the_room)
 {
   static const double value[] = {1, 2};
   const pneu_term term = cycle(FORCE, 1, 2, value);
@@ -205,7 +205,7 @@ static void test_pneu_model_terms__every_state_at_once__fills_the_room(void **st
 }
 
 /* An eighth of the shortest harmonic of all terms. */
-static void test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortest(void **state)
+TEST(test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortest)
 {
   static const double value[] = {1, 2, 3, 4, 5, 6};
   pneu_term term[] = {cycle(FORCE, 3, 6, value), cycle(SHOWN, 2, 2, value), cycle(SHOWN, 1.5, 2, value)};
@@ -223,7 +223,7 @@ static void test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortes
 }
 
 /* Over strokes with events, from any time on, by runs and by single steps: its slope is 1 in every stage. */
-static void test_pneu_run__clock__counts_time(void **state)
+TEST(test_pneu_run__clock__counts_time)
 {
   static const double value[] = {0, 50}, begin[] = {0, 7.25, -3};
   const pneu_term term = cycle(FORCE, 0.5, 2, value);
@@ -289,7 +289,7 @@ static double break_away(double amplitude, double period, double begin, double p
 
 /* F sin(2 pi t/T) = 480 N, in the first cycle of one run over as many as may be: nothing else there asks for short
  * steps. The force acts against the air. */
-static void test_pneu_run__periodic_force_on_a_stuck_stem__breaks_it_away_in_time(void **state)
+TEST(test_pneu_run__periodic_force_on_a_stuck_stem__breaks_it_away_in_time)
 {
   static const double amplitude[] = {505, 600, -600, 5000}, period[] = {0.02, 2, 300}, periods[] = {1, 1000};
   int i, k, j, mode;
@@ -305,7 +305,7 @@ static void test_pneu_run__periodic_force_on_a_stuck_stem__breaks_it_away_in_tim
 
 /* Wherever in between the run begins: at the next instant, which is of the other sign. In single precision a push is
  * resolved from 3 N on, which this force has gained after 7 ms. */
-static void test_pneu_run__periodic_force_from_another_phase__breaks_away_in_time(void **state)
+TEST(test_pneu_run__periodic_force_from_another_phase__breaks_away_in_time)
 {
   const double period = 2, angle = asin(480.0 / 505), half = two_pi / 2;
   int i, mode;
@@ -318,7 +318,7 @@ static void test_pneu_run__periodic_force_from_another_phase__breaks_away_in_tim
   }
 }
 
-static void test_pneu_run__periodic_force_below_friction__holds(void **state)
+TEST(test_pneu_run__periodic_force_below_friction__holds)
 {
   int mode;
   assert_close(break_away(479, 0.5, 0, 500, &mode), 0, 0, 0);
@@ -349,7 +349,7 @@ static double filled(const pneu_params *p, const pneu_term *supply, double durat
   return y - (double)p->ambient_pressure;
 }
 
-static void test_pneu_run__periodic_supply__fills_a_vessel_as_another_integration_says(void **state)
+TEST(test_pneu_run__periodic_supply__fills_a_vessel_as_another_integration_says)
 {
   static const double value[] = {3e4, -5e4, 2e4, 1e4}, period[] = {0.3, 4, 30};
   const double duration = 5;
@@ -372,7 +372,7 @@ static void test_pneu_run__periodic_supply__fills_a_vessel_as_another_integratio
 }
 
 /* However large a swing: the supply keeps a thousandth of ambient pressure. */
-static void test_pneu_add_terms__supply_below_vacuum__stays_above_it(void **state)
+TEST(test_pneu_add_terms__supply_below_vacuum__stays_above_it)
 {
   static const double value[] = {-1e7, 0};
   const pneu_term term = cycle(PNEU_TERM_SUPPLY, 1, 2, value);
@@ -384,20 +384,5 @@ static void test_pneu_add_terms__supply_below_vacuum__stays_above_it(void **stat
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pneu_add_terms__cosine_or_sine__is_the_closed_form),
-      cmocka_unit_test(test_pneu_add_terms__harmonics__are_the_closed_form),
-      cmocka_unit_test(test_pneu_add_terms__clock_behind_other_states__is_read_as_time),
-      cmocka_unit_test(test_pneu_model_terms__odd_number_over_a_cycle__is_refused),
-      cmocka_unit_test(test_pneu_model_terms__cycle__brings_a_clock_and_takes_it_away),
-      cmocka_unit_test(test_pneu_model_terms__every_state_at_once__fills_the_room),
-      cmocka_unit_test(test_pneu_model_terms__several_cycles__bound_the_step_by_the_shortest),
-      cmocka_unit_test(test_pneu_run__clock__counts_time),
-      cmocka_unit_test(test_pneu_run__periodic_force_on_a_stuck_stem__breaks_it_away_in_time),
-      cmocka_unit_test(test_pneu_run__periodic_force_from_another_phase__breaks_away_in_time),
-      cmocka_unit_test(test_pneu_run__periodic_force_below_friction__holds),
-      cmocka_unit_test(test_pneu_run__periodic_supply__fills_a_vessel_as_another_integration_says),
-      cmocka_unit_test(test_pneu_add_terms__supply_below_vacuum__stays_above_it),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -29,7 +29,7 @@ static void follow(const second_rig *g, const second_positioner *k, double set, 
   assert_int_equal(audit.forced, 0);
 }
 
-static void test_second_follow__proportional__comes_to_its_dead_band(void **state)
+TEST(test_second_follow__proportional__comes_to_its_dead_band)
 {
   const second_rig g = follower();
   follow(&g, &proportional, 0.6, 15, 0.01);
@@ -39,7 +39,7 @@ static void test_second_follow__proportional__comes_to_its_dead_band(void **stat
 }
 
 /* Of rows outside the dead band; u was sent up to a cycle before. */
-static void test_second_follow__proportional__sends_gain_times_error(void **state)
+TEST(test_second_follow__proportional__sends_gain_times_error)
 {
   const second_rig g = follower();
   size_t i, partial = 0;
@@ -53,7 +53,7 @@ static void test_second_follow__proportional__sends_gain_times_error(void **stat
   assert_true(partial > 10);
 }
 
-static void test_second_follow__integral__stands_still_while_clipped(void **state)
+TEST(test_second_follow__integral__stands_still_while_clipped)
 {
   const second_rig g = follower();
   second_positioner k = proportional;
@@ -69,7 +69,7 @@ static void test_second_follow__integral__stands_still_while_clipped(void **stat
 }
 
 /* The first cycle's integral is where it began and the share of that cycle; without an integral it is nothing. */
-static void test_second_follow__integral_start__is_sent_from_the_start(void **state)
+TEST(test_second_follow__integral_start__is_sent_from_the_start)
 {
   const second_rig g = follower();
   second_positioner k = {.gain = 5, .integral_time = 2, .integral_start = 0.02, .cutoff_high = 2, .cycle = 1e-3};
@@ -80,7 +80,7 @@ static void test_second_follow__integral_start__is_sent_from_the_start(void **st
   assert_close(got.u[1], 5 * 0.05, 1e-15, 0);
 }
 
-static void test_second_follow__beyond_the_cut_offs__is_shut_or_open(void **state)
+TEST(test_second_follow__beyond_the_cut_offs__is_shut_or_open)
 {
   const second_rig g = follower();
   follow(&g, &proportional, 0.009, 1, 0.01);
@@ -92,7 +92,7 @@ static void test_second_follow__beyond_the_cut_offs__is_shut_or_open(void **stat
 }
 
 /* The gas hears of a command a dead time after the log does. */
-static void test_second_follow__dead_time__is_between_log_and_gas(void **state)
+TEST(test_second_follow__dead_time__is_between_log_and_gas)
 {
   second_rig g = follower();
   size_t i = 0;
@@ -105,7 +105,7 @@ static void test_second_follow__dead_time__is_between_log_and_gas(void **state)
 }
 
 /* A vessel that begins to leak: the pressure stands, then falls by its choked flow, P exp(-t/tau). */
-static void test_second_follow__leak_that_begins__empties_from_then_on(void **state)
+TEST(test_second_follow__leak_that_begins__empties_from_then_on)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED), later;
   second_course course = {.later = &later, .change = 1.2345};
@@ -123,14 +123,5 @@ static void test_second_follow__leak_that_begins__empties_from_then_on(void **st
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_second_follow__proportional__comes_to_its_dead_band),
-      cmocka_unit_test(test_second_follow__proportional__sends_gain_times_error),
-      cmocka_unit_test(test_second_follow__integral__stands_still_while_clipped),
-      cmocka_unit_test(test_second_follow__integral_start__is_sent_from_the_start),
-      cmocka_unit_test(test_second_follow__beyond_the_cut_offs__is_shut_or_open),
-      cmocka_unit_test(test_second_follow__dead_time__is_between_log_and_gas),
-      cmocka_unit_test(test_second_follow__leak_that_begins__empties_from_then_on),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

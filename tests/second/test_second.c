@@ -7,7 +7,7 @@
 /* ---- gas ---- */
 
 /* P' = -(Ca psi sqrt(R T)/V) P while the orifice is choked. */
-static void test_second_run__choked_isothermal_blowdown__is_exponential(void **state)
+TEST(test_second_run__choked_isothermal_blowdown__is_exponential)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.start_pressure = 9e5;
@@ -22,7 +22,7 @@ static void test_second_run__choked_isothermal_blowdown__is_exponential(void **s
 }
 
 /* P/P0 = s^(-2 g/(g-1)), T/T0 = s^-2, s = 1 + (g-1)/2 Ca psi sqrt(R T0)/V t. */
-static void test_second_run__choked_adiabatic_blowdown__follows_the_closed_form(void **state)
+TEST(test_second_run__choked_adiabatic_blowdown__follows_the_closed_form)
 {
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.start_pressure = 9e5;
@@ -37,7 +37,7 @@ static void test_second_run__choked_adiabatic_blowdown__follows_the_closed_form(
 }
 
 /* Eq. (8), venting: P = Pa cosh^2 y makes y' = -(Ca/V) sqrt(R T/2). */
-static void test_second_run__isothermal_blowdown_by_eq_8__is_a_squared_cosh(void **state)
+TEST(test_second_run__isothermal_blowdown_by_eq_8__is_a_squared_cosh)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
   g.start_pressure = 5e5;
@@ -51,7 +51,7 @@ static void test_second_run__isothermal_blowdown_by_eq_8__is_a_squared_cosh(void
 }
 
 /* Eq. (8), filling: sqrt(Ps - P) falls linearly, by Ca sqrt(2 R T Ps)/(2 V) a second. */
-static void test_second_run__isothermal_fill_by_eq_8__is_a_parabola(void **state)
+TEST(test_second_run__isothermal_fill_by_eq_8__is_a_parabola)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
   double Ps = g.supply + g.ambient, rate = g.fill_area * sqrt(0.5 * case_rt(&g) * Ps) / g.dead_volume;
@@ -64,7 +64,7 @@ static void test_second_run__isothermal_fill_by_eq_8__is_a_parabola(void **state
 }
 
 /* Adiabatic fill: 1/T = P0/(P T0) + (1 - P0/P)/(g Ts); from vacuum T = g Ts. */
-static void test_second_run__adiabatic_fill__heats_by_the_closed_form(void **state)
+TEST(test_second_run__adiabatic_fill__heats_by_the_closed_form)
 {
   static const double start[] = {1.0, 0.5e5, 101325.0, 2e5};
   for (size_t k = 0; k < 4; k++) {
@@ -81,7 +81,7 @@ static void test_second_run__adiabatic_fill__heats_by_the_closed_form(void **sta
 }
 
 /* Sonic conductance is derived so that the choked flows agree; below b they are the same number. */
-static void test_second_run__iso_6358_choked__equals_the_nozzle(void **state)
+TEST(test_second_run__iso_6358_choked__equals_the_nozzle)
 {
   second_rig nozzle = case_vessel(SECOND_ENERGY, SECOND_CHOKED), iso = case_vessel(SECOND_ENERGY, SECOND_ISO6358);
   nozzle.start_pressure = iso.start_pressure = 3e5;
@@ -92,7 +92,7 @@ static void test_second_run__iso_6358_choked__equals_the_nozzle(void **state)
 }
 
 /* Subsonic by ISO 6358 into a held pressure: m' = Ca psi P1/sqrt(R T) (1 - ((r - b)/(1 - b))^2)^m. */
-static void test_second_run__iso_6358_subsonic__follows_the_ellipse(void **state)
+TEST(test_second_run__iso_6358_subsonic__follows_the_ellipse)
 {
   second_rig g = case_held(200e3);
   g.flow = SECOND_ISO6358;
@@ -106,7 +106,7 @@ static void test_second_run__iso_6358_subsonic__follows_the_ellipse(void **state
 }
 
 /* Below linear_ratio the flow is proportional to the difference, which then decays exponentially. */
-static void test_second_run__near_equal_pressures__difference_decays_exponentially(void **state)
+TEST(test_second_run__near_equal_pressures__difference_decays_exponentially)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
   g.linear_ratio = 0.1;
@@ -118,7 +118,7 @@ static void test_second_run__near_equal_pressures__difference_decays_exponential
 }
 
 /* Mass in is flow times the time that the orifice was open, wherever the samples are. */
-static void test_second_run__command_between_samples__acts_at_its_own_time(void **state)
+TEST(test_second_run__command_between_samples__acts_at_its_own_time)
 {
   static const double when[] = {0.12345, 0.98765}, what[] = {0.5, 0.0};
   second_rig g = case_held(0.0);
@@ -131,7 +131,7 @@ static void test_second_run__command_between_samples__acts_at_its_own_time(void 
 /* ---- stem ---- */
 
 /* v = v0 - F t/M until it is zero at M v0/F, then for ever at M v0^2/(2 F). */
-static void test_second_run__coulomb_slide__stops_at_the_known_time_and_place(void **state)
+TEST(test_second_run__coulomb_slide__stops_at_the_known_time_and_place)
 {
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
@@ -152,7 +152,7 @@ static void test_second_run__coulomb_slide__stops_at_the_known_time_and_place(vo
 }
 
 /* With viscous friction too the stop is at (M/c) ln(1 + c v0/F). */
-static void test_second_run__viscous_and_coulomb_slide__stops_at_the_known_time(void **state)
+TEST(test_second_run__viscous_and_coulomb_slide__stops_at_the_known_time)
 {
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
@@ -168,7 +168,7 @@ static void test_second_run__viscous_and_coulomb_slide__stops_at_the_known_time(
   }
 }
 
-static void test_second_run__push_below_dry_friction__does_not_move_at_all(void **state)
+TEST(test_second_run__push_below_dry_friction__does_not_move_at_all)
 {
   for (int up = 0; up < 2; up++) {
     second_rig g = case_held(up ? 11.99e3 : -11.99e3); /* 479.6 N of 480 N */
@@ -181,7 +181,7 @@ static void test_second_run__push_below_dry_friction__does_not_move_at_all(void 
 }
 
 /* M x'' = p A - F from rest, either way. */
-static void test_second_run__push_above_dry_friction__accelerates_by_the_rest(void **state)
+TEST(test_second_run__push_above_dry_friction__accelerates_by_the_rest)
 {
   for (int sign = -1; sign < 2; sign += 2) {
     second_rig g = case_held(sign * 13e3);
@@ -193,7 +193,7 @@ static void test_second_run__push_above_dry_friction__accelerates_by_the_rest(vo
   }
 }
 
-static void test_second_run__moving_stem_meets_the_stop__stays_there_and_loses_its_energy(void **state)
+TEST(test_second_run__moving_stem_meets_the_stop__stays_there_and_loses_its_energy)
 {
   second_rig g = case_held(0.0);
   g.stroke = 0.02;
@@ -206,7 +206,7 @@ static void test_second_run__moving_stem_meets_the_stop__stays_there_and_loses_i
 }
 
 /* Leaves the lower stop at p A = k x0 + F, within the sample after that. */
-static void test_second_run__standard_fill__breaks_away_at_the_preload_and_friction(void **state)
+TEST(test_second_run__standard_fill__breaks_away_at_the_preload_and_friction)
 {
   second_rig g = second_rig_default_r1_400();
   g.dead_volume = 1e-3;
@@ -236,7 +236,7 @@ static void audits_close(const second_audit *a, double ambient)
 
 static const double at[] = {0.1, 2.0, 4.0, 4.5, 5.0, 6.0}, to[] = {1.0, 0.0, -0.6, 0.0, 0.7, -1.0};
 
-static void test_second_run__any_gas_and_flow__closes_mass_energy_and_work(void **state)
+TEST(test_second_run__any_gas_and_flow__closes_mass_energy_and_work)
 {
   for (int gas = 0; gas < 2; gas++)
     for (int flow = 0; flow < 3; flow++) {
@@ -251,7 +251,7 @@ static void test_second_run__any_gas_and_flow__closes_mass_energy_and_work(void 
 }
 
 /* Dry friction takes 2 F a stroke, whatever the gas does. */
-static void test_second_run__full_cycle__dry_friction_takes_force_times_way(void **state)
+TEST(test_second_run__full_cycle__dry_friction_takes_force_times_way)
 {
   static const double t2[] = {0.0, 5.0}, u2[] = {1.0, -1.0};
   second_rig g = second_rig_default_r1_400();
@@ -271,7 +271,7 @@ static double error_at(second_rig g, double h, const double *fine)
   return sum / (double)got.n;
 }
 
-static void test_second_run__step_halved__error_falls_sixteenfold(void **state)
+TEST(test_second_run__step_halved__error_falls_sixteenfold)
 {
   static double fine[CASE_SAMPLES];
   for (int gas = 0; gas < 2; gas++) {
@@ -289,7 +289,7 @@ static void test_second_run__step_halved__error_falls_sixteenfold(void **state)
   }
 }
 
-static void test_second_run__refinement_on_a_coarse_step__reaches_the_fine_answer(void **state)
+TEST(test_second_run__refinement_on_a_coarse_step__reaches_the_fine_answer)
 {
   static double fine[CASE_SAMPLES];
   second_rig g = second_rig_default_r1_400();
@@ -303,7 +303,7 @@ static void test_second_run__refinement_on_a_coarse_step__reaches_the_fine_answe
   assert_true(refined < 1e-2 * coarse);
 }
 
-static void test_second_run__same_arguments__same_bits(void **state)
+TEST(test_second_run__same_arguments__same_bits)
 {
   static double first[CASE_SAMPLES];
   second_rig g = second_rig_default_37_13();
@@ -315,7 +315,7 @@ static void test_second_run__same_arguments__same_bits(void **state)
   assert_memory_equal(first, got.p, got.n * sizeof *first);
 }
 
-static void test_second_run__step_far_beyond_stability__is_reported(void **state)
+TEST(test_second_run__step_far_beyond_stability__is_reported)
 {
   second_rig g = second_rig_default_r1_400();
   const double t0 = 0.0, u = 1.0;
@@ -325,28 +325,5 @@ static void test_second_run__step_far_beyond_stability__is_reported(void **state
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_second_run__choked_isothermal_blowdown__is_exponential),
-      cmocka_unit_test(test_second_run__choked_adiabatic_blowdown__follows_the_closed_form),
-      cmocka_unit_test(test_second_run__isothermal_blowdown_by_eq_8__is_a_squared_cosh),
-      cmocka_unit_test(test_second_run__isothermal_fill_by_eq_8__is_a_parabola),
-      cmocka_unit_test(test_second_run__adiabatic_fill__heats_by_the_closed_form),
-      cmocka_unit_test(test_second_run__iso_6358_choked__equals_the_nozzle),
-      cmocka_unit_test(test_second_run__iso_6358_subsonic__follows_the_ellipse),
-      cmocka_unit_test(test_second_run__near_equal_pressures__difference_decays_exponentially),
-      cmocka_unit_test(test_second_run__command_between_samples__acts_at_its_own_time),
-      cmocka_unit_test(test_second_run__coulomb_slide__stops_at_the_known_time_and_place),
-      cmocka_unit_test(test_second_run__viscous_and_coulomb_slide__stops_at_the_known_time),
-      cmocka_unit_test(test_second_run__push_below_dry_friction__does_not_move_at_all),
-      cmocka_unit_test(test_second_run__push_above_dry_friction__accelerates_by_the_rest),
-      cmocka_unit_test(test_second_run__moving_stem_meets_the_stop__stays_there_and_loses_its_energy),
-      cmocka_unit_test(test_second_run__standard_fill__breaks_away_at_the_preload_and_friction),
-      cmocka_unit_test(test_second_run__any_gas_and_flow__closes_mass_energy_and_work),
-      cmocka_unit_test(test_second_run__full_cycle__dry_friction_takes_force_times_way),
-      cmocka_unit_test(test_second_run__step_halved__error_falls_sixteenfold),
-      cmocka_unit_test(test_second_run__refinement_on_a_coarse_step__reaches_the_fine_answer),
-      cmocka_unit_test(test_second_run__same_arguments__same_bits),
-      cmocka_unit_test(test_second_run__step_far_beyond_stability__is_reported),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

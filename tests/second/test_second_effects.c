@@ -9,7 +9,7 @@
 /* ---- mass ---- */
 
 /* A leak with both orifices shut is a blowdown through its own area. */
-static void test_leak_area__vessel_shut_and_choked__decays_exponentially(void **state)
+TEST(test_leak_area__vessel_shut_and_choked__decays_exponentially)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.start_pressure = 6e5;
@@ -20,7 +20,7 @@ static void test_leak_area__vessel_shut_and_choked__decays_exponentially(void **
 }
 
 /* P' = -(c R T/V)(P^2 - Pa^2): (P - Pa)/(P + Pa) decays at 2 Pa c R T/V. */
-static void test_laminar_leak__vessel_shut__follows_the_closed_form(void **state)
+TEST(test_laminar_leak__vessel_shut__follows_the_closed_form)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.start_pressure = 4e5;
@@ -34,7 +34,7 @@ static void test_laminar_leak__vessel_shut__follows_the_closed_form(void **state
   }
 }
 
-static void test_relief__below_and_above_its_pressure__shut_and_open(void **state)
+TEST(test_relief__below_and_above_its_pressure__shut_and_open)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.relief_area = 0.1e-6;
@@ -49,7 +49,7 @@ static void test_relief__below_and_above_its_pressure__shut_and_open(void **stat
 }
 
 /* Into a held pressure Eq. (8) with droop reads q^2 R T/(2 (u Ca)^2) = (Ps - r q)(Ps - r q - P). */
-static void test_supply_droop__held_pressure__flow_solves_its_equation(void **state)
+TEST(test_supply_droop__held_pressure__flow_solves_its_equation)
 {
   second_rig g = case_held(100e3);
   g.stroke = 0.0;
@@ -67,7 +67,7 @@ static double full_flow(const second_rig *g)
 }
 
 /* Under Eq. (8), whose root of the difference is exact, the share c of the line loses r c q^2/q_f. */
-static void test_supply_turbulence__held_pressure__flow_solves_its_equation(void **state)
+TEST(test_supply_turbulence__held_pressure__flow_solves_its_equation)
 {
   for (int i = 0; i < 6; i++) {
     second_rig g = case_held(i < 3 ? 100e3 : 350e3);
@@ -85,7 +85,7 @@ static void test_supply_turbulence__held_pressure__flow_solves_its_equation(void
 
 /* Into a vessel that keeps the fill orifice choked, m' = u K Pl, and the volume behind a resistance follows
  * Pl' = R T/V ((Ps - Pl)/r - u K Pl): drawn from, shut, drawn from again. */
-static void test_supply_volume__drawn_from_and_shut__falls_and_recovers_exponentially(void **state)
+TEST(test_supply_volume__drawn_from_and_shut__falls_and_recovers_exponentially)
 {
   static const double when[] = {0.1, 0.3, 0.35}, u[] = {1.0, 0.0, 0.5};
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
@@ -111,7 +111,7 @@ static void test_supply_volume__drawn_from_and_shut__falls_and_recovers_exponent
 
 /* The line is an orifice alone, of area S, and chokes as one. To second order a nozzle's a is sqrt(2/(R T))
  * (1 - 3/4 w/gamma) of a loss w = 1/1000. */
-static void test_supply_volume__turbulent_and_choked__passes_what_its_orifice_does(void **state)
+TEST(test_supply_volume__turbulent_and_choked__passes_what_its_orifice_does)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.dead_volume = 1.0;
@@ -127,7 +127,7 @@ static void test_supply_volume__turbulent_and_choked__passes_what_its_orifice_do
 }
 
 /* q^2 R T/(2 Ca^2) = P (P - Pa - r q). */
-static void test_back_pressure__held_pressure__flow_solves_its_equation(void **state)
+TEST(test_back_pressure__held_pressure__flow_solves_its_equation)
 {
   second_rig g = case_held(100e3);
   g.stroke = 0.0;
@@ -137,7 +137,7 @@ static void test_back_pressure__held_pressure__flow_solves_its_equation(void **s
   assert_close(s * s * 0.5 * case_rt(&g), (100e3 + g.ambient) * (100e3 - 2e8 * q), 0, 1e-7);
 }
 
-static void test_vent_area__smaller_than_fill_area__scales_the_outflow_only(void **state)
+TEST(test_vent_area__smaller_than_fill_area__scales_the_outflow_only)
 {
   second_rig g = case_held(100e3);
   g.stroke = 0.0;
@@ -149,7 +149,7 @@ static void test_vent_area__smaller_than_fill_area__scales_the_outflow_only(void
 
 /* Constant choked flow q into a tube, a linear restriction, a vessel:
  * P = P0 + q/(C1 + C2) (t - T (1 - exp(-t/T))), Ci = Vi/(R Ta), T = r C1 C2/(C1 + C2). */
-static void test_tube__constant_inflow__chamber_lags_by_the_closed_form(void **state)
+TEST(test_tube__constant_inflow__chamber_lags_by_the_closed_form)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.tube_volume = 2e-4;
@@ -165,7 +165,7 @@ static void test_tube__constant_inflow__chamber_lags_by_the_closed_form(void **s
 
 /* Constant choked flow q into one end of a tube without friction, half its air at either end: with C = V/(R Ta) and
  * omega = 2 sqrt(R Ta)/L, P = P0 + q/C (t - sin(omega t)/omega). */
-static void test_line_length__constant_inflow__swings_by_the_closed_form(void **state)
+TEST(test_line_length__constant_inflow__swings_by_the_closed_form)
 {
   const double length = 5.0;
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
@@ -180,7 +180,7 @@ static void test_line_length__constant_inflow__swings_by_the_closed_form(void **
 
 /* Steadily in by the fill orifice and out by a leak at the far end, both by Eq. (8), which tells the flow and the
  * pressure at either end: Pn - P is what a smooth bore takes of their mean density, by Darcy and Weisbach. */
-static void test_line_friction__steady_flow__loses_what_a_smooth_bore_does(void **state)
+TEST(test_line_friction__steady_flow__loses_what_a_smooth_bore_does)
 {
   static const double opening[] = {2e-8, 5e-6}, least[] = {10.0, 1e4}, most[] = {800.0, 1e5};
   const double length = 5.0, mu = 1.82e-5, quarter_pi = 0.785398163397448;
@@ -202,7 +202,7 @@ static void test_line_friction__steady_flow__loses_what_a_smooth_bore_does(void 
 
 /* Steadily into a held pressure P, or out of it: by Eq. (8) the transducer tells Pt of q, and the line's equation is
  * that of a supply's, but for pressure and temperature ahead of it, Pu and Tu in place of Ps and Ts. */
-static void test_tube_turbulence__held_pressure__steady_flow_solves_its_equation(void **state)
+TEST(test_tube_turbulence__held_pressure__steady_flow_solves_its_equation)
 {
   for (int i = 0; i < 6; i++) {
     second_rig g = case_held(200e3);
@@ -224,7 +224,7 @@ static void test_tube_turbulence__held_pressure__steady_flow_solves_its_equation
 }
 
 /* A tiny vessel behind a large orifice follows the supply. */
-static void test_pulsation__tiny_vessel__follows_the_supply(void **state)
+TEST(test_pulsation__tiny_vessel__follows_the_supply)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_PAPER);
   g.dead_volume = 1e-5;
@@ -238,7 +238,7 @@ static void test_pulsation__tiny_vessel__follows_the_supply(void **state)
 /* ---- energy ---- */
 
 /* (T - Ta) decays at hA/(m cv); hot air sealed in. */
-static void test_heat__sealed_hot_air__cools_exponentially(void **state)
+TEST(test_heat__sealed_hot_air__cools_exponentially)
 {
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.heat = 0.8;
@@ -250,7 +250,7 @@ static void test_heat__sealed_hot_air__cools_exponentially(void **state)
 }
 
 /* d' = -a d^(4/3): d^(-1/3) grows by a/3 a second. */
-static void test_heat_natural__sealed_hot_air__follows_the_closed_form(void **state)
+TEST(test_heat_natural__sealed_hot_air__follows_the_closed_form)
 {
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.heat_natural = 0.2;
@@ -262,7 +262,7 @@ static void test_heat_natural__sealed_hot_air__follows_the_closed_form(void **st
 }
 
 /* Air and wall, insulated from the rest, meet at the common mean. */
-static void test_wall_capacity__insulated_wall__temperatures_meet_at_the_mean(void **state)
+TEST(test_wall_capacity__insulated_wall__temperatures_meet_at_the_mean)
 {
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.heat = 1.0;
@@ -273,7 +273,7 @@ static void test_wall_capacity__insulated_wall__temperatures_meet_at_the_mean(vo
   assert_close(case_last(got.T), (c * 400.0 + 5.0 * g.ambient_temperature) / (c + 5.0), 1e-8, 0);
 }
 
-static void test_heat__very_large__is_the_isothermal_chamber(void **state)
+TEST(test_heat__very_large__is_the_isothermal_chamber)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   case_run(&g, 1.0, 1.0, 0.5);
@@ -287,7 +287,7 @@ static void test_heat__very_large__is_the_isothermal_chamber(void **state)
 /* ---- command ---- */
 
 /* Into a held pressure the mass is the integral of the opening, t - T (1 - exp(-t/T)). */
-static void test_transducer_lag__step__opening_rises_as_first_order(void **state)
+TEST(test_transducer_lag__step__opening_rises_as_first_order)
 {
   second_rig g = case_held(0.0);
   g.stroke = 0.0;
@@ -298,7 +298,7 @@ static void test_transducer_lag__step__opening_rises_as_first_order(void **state
   assert_close(in / full, t - 0.1 * (1.0 - exp(-t / 0.1)), 0, 1e-8);
 }
 
-static void test_dead_time__step__flow_starts_late_and_the_log_shows_the_command(void **state)
+TEST(test_dead_time__step__flow_starts_late_and_the_log_shows_the_command)
 {
   static const double at[] = {0.1}, to[] = {1.0};
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
@@ -311,7 +311,7 @@ static void test_dead_time__step__flow_starts_late_and_the_log_shows_the_command
 /* ---- force ---- */
 
 /* Below break-away, F (1 + s), the stem stays; above, it goes. */
-static void test_stribeck__push_around_the_break_away__stays_or_goes(void **state)
+TEST(test_stribeck__push_around_the_break_away__stays_or_goes)
 {
   for (int go = 0; go < 2; go++) {
     second_rig g = case_held((go ? 721.0 : 719.0) / 0.04);
@@ -324,7 +324,7 @@ static void test_stribeck__push_around_the_break_away__stays_or_goes(void **stat
 }
 
 /* Far above vs it is Coulomb again: M v'= p A - F. */
-static void test_stribeck__fast_slide__is_coulomb_friction(void **state)
+TEST(test_stribeck__fast_slide__is_coulomb_friction)
 {
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
@@ -336,7 +336,7 @@ static void test_stribeck__fast_slide__is_coulomb_friction(void **state)
 }
 
 /* Presliding by dz/dt = v - s0 |v| z/F: a load f < F is carried at x = -(F/s0) ln(1 - f/F). */
-static void test_bristle__load_below_friction__creeps_to_the_presliding_distance(void **state)
+TEST(test_bristle__load_below_friction__creeps_to_the_presliding_distance)
 {
   second_rig g = case_held(240.0 / 0.04);
   g.dry_friction = 480.0;
@@ -349,7 +349,7 @@ static void test_bristle__load_below_friction__creeps_to_the_presliding_distance
 }
 
 /* Sliding at a steady velocity it is F: v = (f - F)/c. */
-static void test_bristle__steady_slide__is_coulomb_friction(void **state)
+TEST(test_bristle__steady_slide__is_coulomb_friction)
 {
   second_rig g = case_held(600.0 / 0.04);
   g.dry_friction = 480.0;
@@ -370,7 +370,7 @@ static double slide_end(const second_rig *g)
   return case_last(got.x);
 }
 
-static void test_friction_position__slide__work_is_the_integral(void **state)
+TEST(test_friction_position__slide__work_is_the_integral)
 {
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
@@ -380,7 +380,7 @@ static void test_friction_position__slide__work_is_the_integral(void **state)
   assert_close(480.0 * (x + x * x), 64.0, 0, 1e-6);
 }
 
-static void test_friction_pressure__slide__adds_in_proportion(void **state)
+TEST(test_friction_pressure__slide__adds_in_proportion)
 {
   second_rig g = case_held(5e3); /* pushes by 200 N, adds 400 N */
   g.dry_friction = 480.0;
@@ -389,7 +389,7 @@ static void test_friction_pressure__slide__adds_in_proportion(void **state)
   assert_close(slide_end(&g), 64.0 / 680.0, 0, 1e-6);
 }
 
-static void test_bump__slide_across_it__takes_its_area(void **state)
+TEST(test_bump__slide_across_it__takes_its_area)
 {
   second_rig g = case_held(0.0);
   g.dry_friction = 480.0;
@@ -402,7 +402,7 @@ static void test_bump__slide_across_it__takes_its_area(void **state)
 }
 
 /* p A = k x + k3 x^3 */
-static void test_spring_cubic__held_pressure__balances(void **state)
+TEST(test_spring_cubic__held_pressure__balances)
 {
   second_rig g = case_balance(500e3);
   g.spring_cubic = 4e6;
@@ -412,7 +412,7 @@ static void test_spring_cubic__held_pressure__balances(void **state)
 }
 
 /* On the way up the loop's force is H (1 - exp(-x/l)). */
-static void test_hysteresis__held_pressure__balances_on_the_loading_branch(void **state)
+TEST(test_hysteresis__held_pressure__balances_on_the_loading_branch)
 {
   second_rig g = case_balance(100e3);
   g.hysteresis = 400.0;
@@ -423,7 +423,7 @@ static void test_hysteresis__held_pressure__balances_on_the_loading_branch(void 
 }
 
 /* p A (1 - a x/stroke) = k x, and the volume swept is A (x - a x^2/(2 stroke)). */
-static void test_area_slope__held_pressure__force_and_volume_agree(void **state)
+TEST(test_area_slope__held_pressure__force_and_volume_agree)
 {
   second_rig g = case_balance(500e3);
   g.area_slope = 0.2;
@@ -433,7 +433,7 @@ static void test_area_slope__held_pressure__force_and_volume_agree(void **state)
   assert_close(a.volume_end - a.volume_start, 0.04 * (x - 0.1 * x * x), 1e-6, 0);
 }
 
-static void test_travel_limit__large_push__stops_there(void **state)
+TEST(test_travel_limit__large_push__stops_there)
 {
   second_rig g = case_balance(500e3);
   g.travel_limit = 0.123;
@@ -442,7 +442,7 @@ static void test_travel_limit__large_push__stops_there(void **state)
 }
 
 /* k x + ks (x - limit) = p A */
-static void test_upper_rate__large_push__yields_elastically(void **state)
+TEST(test_upper_rate__large_push__yields_elastically)
 {
   second_rig g = case_balance(500e3);
   g.travel_limit = 0.1;
@@ -452,7 +452,7 @@ static void test_upper_rate__large_push__yields_elastically(void **state)
   assert_close(case_last(got.x), (500e3 * 0.04 + 1e6 * 0.1) / (1e5 + 1e6), 0, 1e-8);
 }
 
-static void test_lower_rate__preload__rests_below_zero(void **state)
+TEST(test_lower_rate__preload__rests_below_zero)
 {
   second_rig g = case_balance(0.0);
   g.spring_preload = 0.01;
@@ -462,7 +462,7 @@ static void test_lower_rate__preload__rests_below_zero(void **state)
 }
 
 /* Amplitude of a forced, damped mass on a spring. */
-static void test_force__periodic__swings_by_the_transfer_function(void **state)
+TEST(test_force__periodic__swings_by_the_transfer_function)
 {
   second_rig g = case_balance(500e3); /* about x = 0.2 m */
   g.force = 500.0;
@@ -478,7 +478,7 @@ static void test_force__periodic__swings_by_the_transfer_function(void **state)
 
 /* ---- measuring chain ---- */
 
-static void test_bias_and_gain__measured__are_affine(void **state)
+TEST(test_bias_and_gain__measured__are_affine)
 {
   static double p[CASE_SAMPLES], x[CASE_SAMPLES];
   second_rig g = second_rig_default_r1_400();
@@ -497,7 +497,7 @@ static void test_bias_and_gain__measured__are_affine(void **state)
 }
 
 /* A first-order sensor on a ramp trails by rate times lag. Constant choked flow makes the pressure a ramp. */
-static void test_pressure_lag__ramp__trails_by_rate_times_lag(void **state)
+TEST(test_pressure_lag__ramp__trails_by_rate_times_lag)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.pressure_lag = 0.02;
@@ -510,7 +510,7 @@ static void test_pressure_lag__ramp__trails_by_rate_times_lag(void **state)
   }
 }
 
-static void test_position_lag__uniform_motion__trails_by_velocity_times_lag(void **state)
+TEST(test_position_lag__uniform_motion__trails_by_velocity_times_lag)
 {
   second_rig g = case_held(0.0);
   g.position_lag = 0.02;
@@ -523,7 +523,7 @@ static void test_position_lag__uniform_motion__trails_by_velocity_times_lag(void
 }
 
 /* Two first-order lags in series: air cooling at rate a, read with rate b. */
-static void test_temperature_lag__sealed_hot_air__is_two_lags_in_series(void **state)
+TEST(test_temperature_lag__sealed_hot_air__is_two_lags_in_series)
 {
   second_rig g = case_vessel(SECOND_ENERGY, SECOND_CHOKED);
   g.heat = 0.8;
@@ -538,7 +538,7 @@ static void test_temperature_lag__sealed_hot_air__is_two_lags_in_series(void **s
 }
 
 /* Late by 3 samples, the position channel is the true one of 3 rows before; early, of 3 rows after. */
-static void test_position_skew__uniform_motion__shifts_that_channel_only(void **state)
+TEST(test_position_skew__uniform_motion__shifts_that_channel_only)
 {
   for (int late = 0; late < 2; late++) {
     second_rig g = case_held(0.0);
@@ -562,7 +562,7 @@ static void mean_and_deviation(const double *y, double *mean, double *deviation)
 }
 
 /* 4,001 draws: the mean is known to 1.6 %, the deviation to 1.1 % of it; four of those allowed. */
-static void test_noise__many_samples__has_the_given_deviation_and_no_bias(void **state)
+TEST(test_noise__many_samples__has_the_given_deviation_and_no_bias)
 {
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
   g.pressure_noise = 320.0;
@@ -581,7 +581,7 @@ static void test_noise__many_samples__has_the_given_deviation_and_no_bias(void *
   assert_close(deviation, 0.1, 0, 0.045);
 }
 
-static void test_noise__channels_and_seeds__are_independent(void **state)
+TEST(test_noise__channels_and_seeds__are_independent)
 {
   static double first[CASE_SAMPLES];
   second_rig g = case_vessel(SECOND_ISOTHERMAL, SECOND_CHOKED);
@@ -602,7 +602,7 @@ static void test_noise__channels_and_seeds__are_independent(void **state)
   assert_close(other / (double)got.n, 0.0, 0.065, 0);
 }
 
-static void test_range__quantised__every_value_is_a_code(void **state)
+TEST(test_range__quantised__every_value_is_a_code)
 {
   second_rig g = second_rig_default_r1_400();
   g.pressure_range = 1e6;
@@ -620,7 +620,7 @@ static void test_range__quantised__every_value_is_a_code(void **state)
 static const double at[] = {0.1, 1.5, 2.5, 3.0, 4.0}, to[] = {1.0, -0.5, 0.0, 0.8, -1.0};
 
 /* Everything at once: the audits still close, and the run is worth its name. */
-static void test_second_run__all_effects_at_once__audits_close(void **state)
+TEST(test_second_run__all_effects_at_once__audits_close)
 {
   second_rig g = second_rig_default_r1_400();
   g.gas = SECOND_ENERGY;
@@ -653,50 +653,5 @@ static void test_second_run__all_effects_at_once__audits_close(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_leak_area__vessel_shut_and_choked__decays_exponentially),
-      cmocka_unit_test(test_laminar_leak__vessel_shut__follows_the_closed_form),
-      cmocka_unit_test(test_relief__below_and_above_its_pressure__shut_and_open),
-      cmocka_unit_test(test_supply_droop__held_pressure__flow_solves_its_equation),
-      cmocka_unit_test(test_supply_turbulence__held_pressure__flow_solves_its_equation),
-      cmocka_unit_test(test_supply_volume__drawn_from_and_shut__falls_and_recovers_exponentially),
-      cmocka_unit_test(test_supply_volume__turbulent_and_choked__passes_what_its_orifice_does),
-      cmocka_unit_test(test_back_pressure__held_pressure__flow_solves_its_equation),
-      cmocka_unit_test(test_vent_area__smaller_than_fill_area__scales_the_outflow_only),
-      cmocka_unit_test(test_line_length__constant_inflow__swings_by_the_closed_form),
-      cmocka_unit_test(test_line_friction__steady_flow__loses_what_a_smooth_bore_does),
-      cmocka_unit_test(test_tube__constant_inflow__chamber_lags_by_the_closed_form),
-      cmocka_unit_test(test_tube_turbulence__held_pressure__steady_flow_solves_its_equation),
-      cmocka_unit_test(test_pulsation__tiny_vessel__follows_the_supply),
-      cmocka_unit_test(test_heat__sealed_hot_air__cools_exponentially),
-      cmocka_unit_test(test_heat_natural__sealed_hot_air__follows_the_closed_form),
-      cmocka_unit_test(test_wall_capacity__insulated_wall__temperatures_meet_at_the_mean),
-      cmocka_unit_test(test_heat__very_large__is_the_isothermal_chamber),
-      cmocka_unit_test(test_transducer_lag__step__opening_rises_as_first_order),
-      cmocka_unit_test(test_dead_time__step__flow_starts_late_and_the_log_shows_the_command),
-      cmocka_unit_test(test_stribeck__push_around_the_break_away__stays_or_goes),
-      cmocka_unit_test(test_stribeck__fast_slide__is_coulomb_friction),
-      cmocka_unit_test(test_bristle__load_below_friction__creeps_to_the_presliding_distance),
-      cmocka_unit_test(test_bristle__steady_slide__is_coulomb_friction),
-      cmocka_unit_test(test_friction_position__slide__work_is_the_integral),
-      cmocka_unit_test(test_friction_pressure__slide__adds_in_proportion),
-      cmocka_unit_test(test_bump__slide_across_it__takes_its_area),
-      cmocka_unit_test(test_spring_cubic__held_pressure__balances),
-      cmocka_unit_test(test_hysteresis__held_pressure__balances_on_the_loading_branch),
-      cmocka_unit_test(test_area_slope__held_pressure__force_and_volume_agree),
-      cmocka_unit_test(test_travel_limit__large_push__stops_there),
-      cmocka_unit_test(test_upper_rate__large_push__yields_elastically),
-      cmocka_unit_test(test_lower_rate__preload__rests_below_zero),
-      cmocka_unit_test(test_force__periodic__swings_by_the_transfer_function),
-      cmocka_unit_test(test_bias_and_gain__measured__are_affine),
-      cmocka_unit_test(test_pressure_lag__ramp__trails_by_rate_times_lag),
-      cmocka_unit_test(test_position_lag__uniform_motion__trails_by_velocity_times_lag),
-      cmocka_unit_test(test_temperature_lag__sealed_hot_air__is_two_lags_in_series),
-      cmocka_unit_test(test_position_skew__uniform_motion__shifts_that_channel_only),
-      cmocka_unit_test(test_noise__many_samples__has_the_given_deviation_and_no_bias),
-      cmocka_unit_test(test_noise__channels_and_seeds__are_independent),
-      cmocka_unit_test(test_range__quantised__every_value_is_a_code),
-      cmocka_unit_test(test_second_run__all_effects_at_once__audits_close),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -29,7 +29,7 @@ static void declare(void)
   rig.fit[rig.n_fit++] = PNEU_PARAM_spring_preload;
 }
 
-static void test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_left(void **state)
+TEST(test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_left)
 {
   const double truth = 1.2 * 0.01;
   alone_fit fit;
@@ -44,7 +44,7 @@ static void test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_lef
   assert_true(fit.common > 10 * fit.left);
 }
 
-static void test_alone_fit_log__value_of_each_log__is_found_as_well(void **state)
+TEST(test_alone_fit_log__value_of_each_log__is_found_as_well)
 {
   alone_fit fit;
   declare();
@@ -57,7 +57,7 @@ static void test_alone_fit_log__value_of_each_log__is_found_as_well(void **state
 }
 
 /* The preload is right, so that nothing but the lag is missing. */
-static void test_alone_fit_sensor__position_that_lags__is_shown_through_it(void **state)
+TEST(test_alone_fit_sensor__position_that_lags__is_shown_through_it)
 {
   static const double lag = 0.08;
   alone_fit fit;
@@ -70,7 +70,7 @@ static void test_alone_fit_sensor__position_that_lags__is_shown_through_it(void 
   assert_close(fit.left, 2e-5, 0, 0.1);
 }
 
-static void test_alone_fit_sensor__what_is_no_lag__is_not_made_one(void **state)
+TEST(test_alone_fit_sensor__what_is_no_lag__is_not_made_one)
 {
   alone_fit fit;
   declare();
@@ -79,7 +79,7 @@ static void test_alone_fit_sensor__what_is_no_lag__is_not_made_one(void **state)
   assert_true(fit.left > 10 * 2e-5);
 }
 
-static void test_alone_fit_sensor__unknown_parameter__is_refused(void **state)
+TEST(test_alone_fit_sensor__unknown_parameter__is_refused)
 {
   alone_fit fit;
   declare();
@@ -89,12 +89,5 @@ static void test_alone_fit_sensor__unknown_parameter__is_refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_alone_fit_log__preload_of_this_log__is_found_and_only_noise_left),
-      cmocka_unit_test(test_alone_fit_log__value_of_each_log__is_found_as_well),
-      cmocka_unit_test(test_alone_fit_sensor__position_that_lags__is_shown_through_it),
-      cmocka_unit_test(test_alone_fit_sensor__what_is_no_lag__is_not_made_one),
-      cmocka_unit_test(test_alone_fit_sensor__unknown_parameter__is_refused),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

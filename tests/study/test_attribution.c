@@ -20,7 +20,7 @@ static void make(const study_tables *tables, const study *s, const char *name, t
 }
 
 /* The R1-400 as Eq. (1) has it under every law; the 37-13 as printed falls as a lag unless the flow chokes. */
-static void test_edges__eq1__as_the_report_says(void **state)
+TEST(test_edges__eq1__as_the_report_says)
 {
   const study *s = read_study();
   table t;
@@ -41,7 +41,7 @@ static void test_edges__eq1__as_the_report_says(void **state)
   table_close(&t);
 }
 
-static void test_directions__vent_for_equal_times__shape_stays(void **state)
+TEST(test_directions__vent_for_equal_times__shape_stays)
 {
   table t;
   size_t row, base = 0;
@@ -58,7 +58,7 @@ static void test_directions__vent_for_equal_times__shape_stays(void **state)
 }
 
 /* Shapley shares add up to the whole, and nothing is left where every cause is gone. */
-static void test_attribution__shares__add_up(void **state)
+TEST(test_attribution__shares__add_up)
 {
   const study *s = read_study();
   double sum[STUDY_LAW_MAX] = {0};
@@ -82,10 +82,5 @@ static void test_attribution__shares__add_up(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_edges__eq1__as_the_report_says),
-      cmocka_unit_test(test_directions__vent_for_equal_times__shape_stays),
-      cmocka_unit_test(test_attribution__shares__add_up),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -26,7 +26,7 @@ static finding one_value(double value)
   return f;
 }
 
-static void test_finding_judge__crossing_a_threshold__flips(void **state)
+TEST(test_finding_judge__crossing_a_threshold__flips)
 {
   const double inside = 0.0999, outside = 0.1001;
   finding f = one_value(inside);
@@ -40,7 +40,7 @@ static void test_finding_judge__crossing_a_threshold__flips(void **state)
   assert_int_equal(finding_judge(&f, -HUGE_VAL, HUGE_VAL), FINDING_CONTRADICTED);
 }
 
-static void test_finding_judge__each_conclusion__flips_at_its_threshold(void **state)
+TEST(test_finding_judge__each_conclusion__flips_at_its_threshold)
 {
   int i;
   for (i = 0; i < CONCLUSIONS; i++) {
@@ -69,7 +69,7 @@ static void check_limits(int number, double word, double want_low, double want_h
 }
 
 /* A word moves its own limits, and only where the statement has one. */
-static void test_conclusion_limits__another_word__moves_only_what_hangs_on_it(void **state)
+TEST(test_conclusion_limits__another_word__moves_only_what_hangs_on_it)
 {
   check_limits(1, 0.2, -1.2, -0.8);
   check_limits(2, 0.3, 1.3, HUGE_VAL);
@@ -79,7 +79,7 @@ static void test_conclusion_limits__another_word__moves_only_what_hangs_on_it(vo
   check_limits(9, 0.3, 0.01, HUGE_VAL);
 }
 
-static void test_finding_judge__a_case_that_fails__needs_every_conditioned_value(void **state)
+TEST(test_finding_judge__a_case_that_fails__needs_every_conditioned_value)
 {
   finding f = one_value(1);
   finding_add(&f, 5, "another");
@@ -92,7 +92,7 @@ static void test_finding_judge__a_case_that_fails__needs_every_conditioned_value
   assert_int_equal(finding_judge(&f, 0, 2), FINDING_CONTRADICTED);
 }
 
-static void test_finding_add__beyond_its_room__left_out(void **state)
+TEST(test_finding_add__beyond_its_room__left_out)
 {
   finding f = one_value(1);
   int i;
@@ -104,7 +104,7 @@ static void test_finding_add__beyond_its_room__left_out(void **state)
   assert_int_equal(f.n_conditioned, FINDING_CASES);
 }
 
-static void test_finding_text__values_and_claim__in_words(void **state)
+TEST(test_finding_text__values_and_claim__in_words)
 {
   finding f = one_value(0.25);
   char text[200];
@@ -123,7 +123,7 @@ static void test_finding_text__values_and_claim__in_words(void **state)
   assert_string_equal(text, "contradicted");
 }
 
-static void test_finding_join__two_actuators__one_sentence(void **state)
+TEST(test_finding_join__two_actuators__one_sentence)
 {
   finding all, one = one_value(1), two = one_value(3);
   char text[200];
@@ -151,7 +151,7 @@ static void test_finding_join__two_actuators__one_sentence(void **state)
   assert_int_equal(finding_judge(&two, 0, 2), FINDING_CONTRADICTED);
 }
 
-static void test_finding_worst__each_kind_of_limit__nearest_to_failing(void **state)
+TEST(test_finding_worst__each_kind_of_limit__nearest_to_failing)
 {
   finding f = one_value(2);
   finding_add(&f, 1, "lower");
@@ -177,7 +177,7 @@ static speed_pair straight_lines(void)
   return pair;
 }
 
-static void test_speeds__straight_lines__read_off(void **state)
+TEST(test_speeds__straight_lines__read_off)
 {
   speed_pair pair = straight_lines();
   int i;
@@ -233,7 +233,7 @@ static void compare_speeds(const lab_rig *rig, int actuator, int law)
   assert_close(pair.shape.rise_time, paper_stroke_time(&c, PAPER_UP), 0, 0.03);
 }
 
-static void test_speeds_measure__every_law_and_actuator__quasi_static(void **state)
+TEST(test_speeds_measure__every_law_and_actuator__quasi_static)
 {
   static study s;
   int actuator, law;
@@ -244,7 +244,7 @@ static void test_speeds_measure__every_law_and_actuator__quasi_static(void **sta
 }
 
 /* -int A p dx of the falling edge without friction is the energy of the spring: A x_n (p_bl + p_bh)/2 */
-static void test_speeds_measure__returned_work__is_that_of_the_spring(void **state)
+TEST(test_speeds_measure__returned_work__is_that_of_the_spring)
 {
   const pneu_laws laws = isothermal(PAPER_LAW_UNCHOKED);
   pneu_params p;
@@ -255,7 +255,7 @@ static void test_speeds_measure__returned_work__is_that_of_the_spring(void **sta
   assert_close(pair.returned, 0.5 * p.spring_rate * (0.03 * 0.03 - 0.01 * 0.01), 0, 5e-3);
 }
 
-static void test_speeds_measure__no_travel__data_error(void **state)
+TEST(test_speeds_measure__no_travel__data_error)
 {
   const pneu_laws laws = isothermal(PAPER_LAW_UNCHOKED);
   pneu_params p;
@@ -269,7 +269,7 @@ static void test_speeds_measure__no_travel__data_error(void **state)
 
 /* ---- Bench sets ---- */
 
-static void test_bench_scan_range__a_valley__ends_between_points(void **state)
+TEST(test_bench_scan_range__a_valley__ends_between_points)
 {
   static bench_scan scan;
   double from = 0, to = 0;
@@ -289,7 +289,7 @@ static void test_bench_scan_range__a_valley__ends_between_points(void **state)
 
 enum { R1_400_BENCH = 2 }; /* of the study's actuators */
 
-static void test_bench_equal__both_laws__where_the_closed_form_has_it(void **state)
+TEST(test_bench_equal__both_laws__where_the_closed_form_has_it)
 {
   static study s;
   int law;
@@ -308,7 +308,7 @@ static void test_bench_equal__both_laws__where_the_closed_form_has_it(void **sta
 
 /* A narrow bench set changes the pressure by little, so that both strokes are nearly straight; the closed form agrees
  * with the width. */
-static void test_bench_alike__a_tenth_of_the_shape__narrow_bench_set(void **state)
+TEST(test_bench_alike__a_tenth_of_the_shape__narrow_bench_set)
 {
   static study s;
   const pneu_laws laws = isothermal(PAPER_LAW_UNCHOKED);
@@ -323,7 +323,7 @@ static void test_bench_alike__a_tenth_of_the_shape__narrow_bench_set(void **stat
   assert_true(isnan(bench_alike(&s.actuator[R1_400_BENCH].params, &laws, 160e3, 1e-6, &low)));
 }
 
-static void test_bench_params__narrower_than_a_preload_can_be__force_stands_in(void **state)
+TEST(test_bench_params__narrower_than_a_preload_can_be__force_stands_in)
 {
   pneu_params p, b;
   pneu_params_default(&p);
@@ -336,7 +336,7 @@ static void test_bench_params__narrower_than_a_preload_can_be__force_stands_in(v
 
 /* What spring and load resist with is p_s A (1 - margin) - F up and p_s A margin + F down, so that the load takes
  * (p_s A (1 - 2 margin) - 2 F) x_n; the air is that which fills the volume from ambient to supply. */
-static void test_load_cycle__friction_and_margin__are_all_that_is_lost(void **state)
+TEST(test_load_cycle__friction_and_margin__are_all_that_is_lost)
 {
   const double margin = 0.02;
   pneu_params p;
@@ -355,7 +355,7 @@ static void test_load_cycle__friction_and_margin__are_all_that_is_lost(void **st
   }
 }
 
-static void test_load_cycle__load_too_heavy__says_where_it_stays(void **state)
+TEST(test_load_cycle__load_too_heavy__says_where_it_stays)
 {
   const pneu_laws laws = isothermal(PAPER_LAW_UNCHOKED);
   pneu_params p;
@@ -427,7 +427,7 @@ static const char *verdict_on(const table *t, int number, int actuator, int law)
   return table_at(t, (size_t)(((number - 1) * 4 + actuator) * 4 + law), 8)->text;
 }
 
-static void test_conclusions__whole_study__every_row_whatever_the_threads(void **state)
+TEST(test_conclusions__whole_study__every_row_whatever_the_threads)
 {
   static study s;
   table one[CONCLUSION_TABLES], two[CONCLUSION_TABLES];
@@ -467,7 +467,7 @@ static void test_conclusions__whole_study__every_row_whatever_the_threads(void *
 }
 
 /* One conclusion of made-up findings: 1.15 on the printed actuator, 1.01 on its twin. */
-static void test_conclusions_thresholds__a_verdict_that_turns__is_marked(void **state)
+TEST(test_conclusions_thresholds__a_verdict_that_turns__is_marked)
 {
   static study s;
   static finding found[2 * CONCLUSIONS];
@@ -489,7 +489,7 @@ static void test_conclusions_thresholds__a_verdict_that_turns__is_marked(void **
   table_close(&t);
 }
 
-static void test_conclusions_try__parameters_out_of_bounds__says_which_actuator_and_law(void **state)
+TEST(test_conclusions_try__parameters_out_of_bounds__says_which_actuator_and_law)
 {
   static study s;
   finding *found;
@@ -504,28 +504,5 @@ static void test_conclusions_try__parameters_out_of_bounds__says_which_actuator_
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_finding_judge__crossing_a_threshold__flips),
-      cmocka_unit_test(test_finding_judge__each_conclusion__flips_at_its_threshold),
-      cmocka_unit_test(test_finding_judge__a_case_that_fails__needs_every_conditioned_value),
-      cmocka_unit_test(test_finding_add__beyond_its_room__left_out),
-      cmocka_unit_test(test_finding_text__values_and_claim__in_words),
-      cmocka_unit_test(test_finding_join__two_actuators__one_sentence),
-      cmocka_unit_test(test_finding_worst__each_kind_of_limit__nearest_to_failing),
-      cmocka_unit_test(test_conclusion_limits__another_word__moves_only_what_hangs_on_it),
-      cmocka_unit_test(test_speeds__straight_lines__read_off),
-      cmocka_unit_test(test_speeds_measure__every_law_and_actuator__quasi_static),
-      cmocka_unit_test(test_speeds_measure__returned_work__is_that_of_the_spring),
-      cmocka_unit_test(test_speeds_measure__no_travel__data_error),
-      cmocka_unit_test(test_bench_scan_range__a_valley__ends_between_points),
-      cmocka_unit_test(test_bench_equal__both_laws__where_the_closed_form_has_it),
-      cmocka_unit_test(test_bench_alike__a_tenth_of_the_shape__narrow_bench_set),
-      cmocka_unit_test(test_bench_params__narrower_than_a_preload_can_be__force_stands_in),
-      cmocka_unit_test(test_load_cycle__friction_and_margin__are_all_that_is_lost),
-      cmocka_unit_test(test_load_cycle__load_too_heavy__says_where_it_stays),
-      cmocka_unit_test(test_conclusions__whole_study__every_row_whatever_the_threads),
-      cmocka_unit_test(test_conclusions_thresholds__a_verdict_that_turns__is_marked),
-      cmocka_unit_test(test_conclusions_try__parameters_out_of_bounds__says_which_actuator_and_law),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -40,7 +40,7 @@ static void assert_file(const char *name, const char *want)
   free(text);
 }
 
-static void test_study_make__orders_and_scopes__files(void **state)
+TEST(test_study_make__orders_and_scopes__files)
 {
   const study_tables tables = {{STUDY_ALL, STUDY_EVERY_LAW},
                                rows,
@@ -63,7 +63,7 @@ static int one_row(const study_cell *c, table *t, lab_error *unused)
   return LAB_OK;
 }
 
-static void test_study_make__one_law_of_the_subject__one_cell(void **state)
+TEST(test_study_make__one_law_of_the_subject__one_cell)
 {
   const study_tables tables = {
       {STUDY_SUBJECT, STUDY_ONE_LAW}, one_row, {{"c", "n,x", STUDY_BY_CELL, STUDY_CELL_FILE, 3}}};
@@ -78,7 +78,7 @@ static int fail_later(const study_cell *c, void *context, lab_error *mine)
   return c->index ? lab_fail(mine, LAB_NUMERIC, "cell %d", c->index) : LAB_OK;
 }
 
-static void test_study_each__several_fail__first_in_order_is_told(void **state)
+TEST(test_study_each__several_fail__first_in_order_is_told)
 {
   const study_grid grid = {STUDY_ALL, STUDY_EVERY_LAW};
   int i;
@@ -97,7 +97,7 @@ static int count(const study_cell *c, void *context, lab_error *unused)
   return LAB_OK;
 }
 
-static void test_study_each__twin_and_gas_laws__cells(void **state)
+TEST(test_study_each__twin_and_gas_laws__cells)
 {
   const study_grid twins = {STUDY_SUBJECT_AND_TWIN, STUDY_GAS_LAWS};
   study *s = made_up();
@@ -114,11 +114,5 @@ static void test_study_each__twin_and_gas_laws__cells(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_study_make__orders_and_scopes__files),
-      cmocka_unit_test(test_study_make__one_law_of_the_subject__one_cell),
-      cmocka_unit_test(test_study_each__several_fail__first_in_order_is_told),
-      cmocka_unit_test(test_study_each__twin_and_gas_laws__cells),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

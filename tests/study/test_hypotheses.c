@@ -20,7 +20,7 @@ static int judge(double left, double left_signed, double alone, double alone_sig
   return (int)verdict_judge(&shares, below);
 }
 
-static void test_verdict_judge__crossing_a_threshold__flips(void **state)
+TEST(test_verdict_judge__crossing_a_threshold__flips)
 {
   const double untried = (double)NAN;
   assert_int_equal(judge(0.0999, 0.0999, 0.1001, 0.1001), VERDICT_CONFIRMED);
@@ -59,7 +59,7 @@ static void check_law(const lab_rig *rig, int gas, int flow, int is_central)
   assert_true(strokes.alone[H6_AIR_PROCESS].asymmetry < 0.02 * strokes.base.asymmetry);
 }
 
-static void test_verdict_measure__every_law_and_actuator__as_the_report_says(void **state)
+TEST(test_verdict_measure__every_law_and_actuator__as_the_report_says)
 {
   static study s;
   int a, g, f;
@@ -79,7 +79,7 @@ static double exponential_area(double ratio)
   return (1 - (1 - 1 / ratio) / log(ratio)) / (1 - 1 / ratio);
 }
 
-static void test_hypotheses__air_process_with_the_bench_set_in_place__closed_form(void **state)
+TEST(test_hypotheses__air_process_with_the_bench_set_in_place__closed_form)
 {
   static study s;
   int a;
@@ -139,7 +139,7 @@ static void check_constant_load(const lab_rig *rig)
   assert_true(fabs(pair.shape.duration_ratio - 1) > 0.1);
 }
 
-static void test_hypotheses__spring_or_air__each_stroke_as_the_closed_form_has_it(void **state)
+TEST(test_hypotheses__spring_or_air__each_stroke_as_the_closed_form_has_it)
 {
   static study s;
   int a;
@@ -153,11 +153,5 @@ static void test_hypotheses__spring_or_air__each_stroke_as_the_closed_form_has_i
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_verdict_judge__crossing_a_threshold__flips),
-      cmocka_unit_test(test_verdict_measure__every_law_and_actuator__as_the_report_says),
-      cmocka_unit_test(test_hypotheses__air_process_with_the_bench_set_in_place__closed_form),
-      cmocka_unit_test(test_hypotheses__spring_or_air__each_stroke_as_the_closed_form_has_it),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -22,7 +22,7 @@ static paper_case ideal_case(paper_flow flow, double storage)
 
 /* ---- Flow laws ---- */
 
-static void test_paper_flow_unchoked__whole_numbers__exact(void **state)
+TEST(test_paper_flow_unchoked__whole_numbers__exact)
 {
   assert_close(paper_flow_unchoked(500.0, 320.0), 300.0, 0, TIGHT);
   assert_close(paper_flow_unchoked(500.0, 500.0), 0.0, 0, 0);
@@ -30,7 +30,7 @@ static void test_paper_flow_unchoked__whole_numbers__exact(void **state)
 }
 
 /* with gamma = 7/5 the choked flow is sqrt(0.7)/1.2^3 P_up and sets in at 1.2^-3.5 */
-static void test_paper_flow_choked__below_critical__constant(void **state)
+TEST(test_paper_flow_choked__below_critical__constant)
 {
   double c = sqrt(0.7) / (1.2 * 1.2 * 1.2);
   assert_close(paper_choking_ratio(), pow(1.2, -3.5), 0, TIGHT);
@@ -40,13 +40,13 @@ static void test_paper_flow_choked__below_critical__constant(void **state)
 }
 
 /* 3.5 (r^(10/7) - r^(12/7)) at r = 0.9^3.5 is 3.5 0.9^5 (1 - 0.9) */
-static void test_paper_flow_choked__above_critical__isentropic(void **state)
+TEST(test_paper_flow_choked__above_critical__isentropic)
 {
   double r = pow(0.9, 3.5);
   assert_close(paper_flow_choked(1.0, r), sqrt(3.5 * pow(0.9, 5) * 0.1), 0, TIGHT);
 }
 
-static void test_paper_flow_choked__small_drop__meets_unchoked(void **state)
+TEST(test_paper_flow_choked__small_drop__meets_unchoked)
 {
   double P = 1e5, drop = 1.0;
   assert_close(paper_flow_choked(P, P - drop), paper_flow_unchoked(P, P - drop), 0, 1e-5);
@@ -54,13 +54,13 @@ static void test_paper_flow_choked__small_drop__meets_unchoked(void **state)
 
 /* ---- Velocities at constant pressure ---- */
 
-static void test_paper_fill_speed__ratio_five__root_of_twenty(void **state)
+TEST(test_paper_fill_speed__ratio_five__root_of_twenty)
 {
   assert_close(paper_fill_speed(paper_flow_unchoked, 5.0, 1.0), sqrt(20.0), 0, TIGHT);
   assert_close(paper_fill_speed(paper_flow_unchoked, 500e3, 500e3), 0.0, 0, 0);
 }
 
-static void test_paper_vent_speed__ends__zero_and_half(void **state)
+TEST(test_paper_vent_speed__ends__zero_and_half)
 {
   assert_close(paper_vent_speed(paper_flow_unchoked, 101325.0, 101325.0), 0.0, 0, 0);
   assert_close(paper_vent_speed(paper_flow_unchoked, 2.0, 1.0), sqrt(0.5), 0, TIGHT);
@@ -68,14 +68,14 @@ static void test_paper_vent_speed__ends__zero_and_half(void **state)
 }
 
 /* Eq. (23) in whole numbers: p_bl (p_bh + 100)/(p_bh (p_bl + 100)) is 1/3, 17/27 and 108/133 */
-static void test_paper_speed_change__table_1__fractions(void **state)
+TEST(test_paper_speed_change__table_1__fractions)
 {
   assert_close(paper_speed_change(paper_flow_unchoked, 20, 100, 100), 1.0 - sqrt(1.0 / 3.0), 0, TIGHT);
   assert_close(paper_speed_change(paper_flow_unchoked, 80, 240, 100), 1.0 - sqrt(17.0 / 27.0), 0, TIGHT);
   assert_close(paper_speed_change(paper_flow_unchoked, 180, 380, 100), 1.0 - sqrt(108.0 / 133.0), 0, TIGHT);
 }
 
-static void test_paper_speed_change__choked_throughout__none(void **state)
+TEST(test_paper_speed_change__choked_throughout__none)
 {
   assert_close(paper_speed_change(paper_flow_choked, 180, 380, 100), 0.0, TIGHT, 0);
 }
@@ -83,7 +83,7 @@ static void test_paper_speed_change__choked_throughout__none(void **state)
 /* ---- Where the edges are equally fast ---- */
 
 /* p_a/p_s = 5/7 makes the discriminant (25/7)^2 */
-static void test_paper_critical_pressure__special_ratios__exact(void **state)
+TEST(test_paper_critical_pressure__special_ratios__exact)
 {
   assert_close(paper_critical_pressure(5.0 / 7.0), 4.0 / 7.0, 0, TIGHT);
   assert_close(paper_critical_pressure(0.0), 0.5 * (sqrt(5.0) - 1.0), 0, TIGHT);
@@ -92,7 +92,7 @@ static void test_paper_critical_pressure__special_ratios__exact(void **state)
 }
 
 /* (31) with the sign of equality */
-static void test_paper_critical_pressure__any_ratio__solves_eq31(void **state)
+TEST(test_paper_critical_pressure__any_ratio__solves_eq31)
 {
   double a;
   for (a = -0.9; a < 5.0; a += 0.1) {
@@ -101,7 +101,7 @@ static void test_paper_critical_pressure__any_ratio__solves_eq31(void **state)
   }
 }
 
-static void test_paper_crossing__unchoked__is_eq35(void **state)
+TEST(test_paper_crossing__unchoked__is_eq35)
 {
   double a;
   for (a = 0.0; a < 2.0; a += 0.25)
@@ -109,14 +109,14 @@ static void test_paper_crossing__unchoked__is_eq35(void **state)
 }
 
 /* venting choked, filling not: with y = r^(-2/7), y^2 - y = 0.2/1.2^6, and p/p_s = r - (1 - r) p_a/p_s */
-static void test_paper_crossing__choked__closed_form(void **state)
+TEST(test_paper_crossing__choked__closed_form)
 {
   double y = 0.5 * (1.0 + sqrt(1.0 + 0.8 / pow(1.2, 6))), r = pow(y, -3.5);
   assert_close(paper_crossing(paper_flow_choked, 0.0), r, 0, TIGHT);
   assert_close(paper_crossing(paper_flow_choked, 0.25), r - 0.25 * (1.0 - r), 0, TIGHT);
 }
 
-static void test_paper_supply_threshold__eq30__roots(void **state)
+TEST(test_paper_supply_threshold__eq30__roots)
 {
   assert_close(paper_supply_threshold(2.0), 1.0, 0, TIGHT);
   assert_close(paper_supply_threshold(0.5), 0.5 * (sqrt(3.0) - 1.0), 0, TIGHT);
@@ -124,14 +124,14 @@ static void test_paper_supply_threshold__eq30__roots(void **state)
 
 /* ---- Scale and energy ---- */
 
-static void test_paper_speed_scale__equal_areas__root_of_2RT(void **state)
+TEST(test_paper_speed_scale__equal_areas__root_of_2RT)
 {
   assert_close(paper_speed_scale(1.0, 1.0, 298.15), sqrt(2.0 * R_air * 298.15), 0, TIGHT);
   assert_close(paper_speed_scale(3.0, 2.0, 4.0 * 298.15), 3.0 * sqrt(2.0 * R_air * 298.15), 0, TIGHT);
 }
 
 /* mean of p over p_s along the travel, summed here over a thousand slices */
-static void test_paper_returned_share__bench_sets__mean_pressure(void **state)
+TEST(test_paper_returned_share__bench_sets__mean_pressure)
 {
   double sum = 0.0;
   int i;
@@ -141,7 +141,7 @@ static void test_paper_returned_share__bench_sets__mean_pressure(void **state)
   assert_close(paper_returned_share(0.0, 140e3, 140e3), 0.5, 0, TIGHT);
 }
 
-static void test_paper_exergy_efficiency__pressure_ratio_e__closed_form(void **state)
+TEST(test_paper_exergy_efficiency__pressure_ratio_e__closed_form)
 {
   double e = exp(1.0);
   assert_close(paper_exergy_efficiency((e - 1.0) * 1e5, 1e5), (e - 1.0) / e, 0, TIGHT);
@@ -149,7 +149,7 @@ static void test_paper_exergy_efficiency__pressure_ratio_e__closed_form(void **s
 
 /* ---- Spring-loaded stem ---- */
 
-static void test_paper_actuator_with_bench__table_a1__implied_springs(void **state)
+TEST(test_paper_actuator_with_bench__table_a1__implied_springs)
 {
   paper_actuator r1 = paper_actuators[PAPER_R1_400], m37 = paper_actuators[PAPER_37_13];
   r1 = paper_actuator_with_bench(&r1, 80e3, 240e3);
@@ -160,7 +160,7 @@ static void test_paper_actuator_with_bench__table_a1__implied_springs(void **sta
   assert_close(m37.preload, 9.525e-3, 0, TIGHT);
 }
 
-static void test_paper_actuators__table_a1__as_printed(void **state)
+TEST(test_paper_actuators__table_a1__as_printed)
 {
   paper_actuator r1 = paper_actuators[PAPER_R1_400], m37 = paper_actuators[PAPER_37_13];
   assert_string_equal(r1.key, "r1-400");
@@ -176,7 +176,7 @@ static void test_paper_actuators__table_a1__as_printed(void **state)
   assert_close(r1.friction + m37.friction, 960.0, 0, TIGHT);
 }
 
-static void test_paper_pressure__both_directions__friction_changes_sign(void **state)
+TEST(test_paper_pressure__both_directions__friction_changes_sign)
 {
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
   c.actuator.friction = 480.0;
@@ -186,7 +186,7 @@ static void test_paper_pressure__both_directions__friction_changes_sign(void **s
 }
 
 /* top of 80..240 kPa at p_a = 100 kPa: 340 kPa, storage 160 kPa */
-static void test_paper_speed__top_of_bench_set__hand_values(void **state)
+TEST(test_paper_speed__top_of_bench_set__hand_values)
 {
   paper_case without = ideal_case(paper_flow_unchoked, 0.0), with = ideal_case(paper_flow_unchoked, 1.0);
   assert_close(paper_speed(&without, PAPER_UP, 0.02), sqrt(500.0 * 160.0) / 340.0, 0, TIGHT);
@@ -197,7 +197,7 @@ static void test_paper_speed__top_of_bench_set__hand_values(void **state)
 }
 
 /* V_0 of a tenth of the swept volume stores like 2 mm of travel: 16 kPa at x = 0 */
-static void test_paper_speed__dead_volume__slows(void **state)
+TEST(test_paper_speed__dead_volume__slows)
 {
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
   c.actuator.dead_volume = 0.08e-3;
@@ -205,7 +205,7 @@ static void test_paper_speed__dead_volume__slows(void **state)
 }
 
 /* without dead volume the falling stem gains speed where p_bl (2 p + p_a) > p_a^2: PAPER.md 3.3 */
-static void test_paper_speed__falling__gains_speed_by_criterion(void **state)
+TEST(test_paper_speed__falling__gains_speed_by_criterion)
 {
   const double p_bl[] = {10e3, 20e3, 30e3, 40e3, 60e3, 80e3, 180e3};
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
@@ -222,7 +222,7 @@ static void test_paper_speed__falling__gains_speed_by_criterion(void **state)
 }
 
 /* choked and without storage the falling velocity is the constant sqrt(0.7)/1.2^3 of the scale */
-static void test_paper_stroke_time__choked_vent__constant_velocity(void **state)
+TEST(test_paper_stroke_time__choked_vent__constant_velocity)
 {
   paper_case c = ideal_case(paper_flow_choked, 0.0);
   double scale = 0.893e-6 / 0.04 * sqrt(2.0 * R_air * 298.15);
@@ -273,7 +273,7 @@ static double time_by_mass(const paper_case *c, int direction)
   return time;
 }
 
-static void test_paper_stroke_time__table_a1__equals_integrated_mass(void **state)
+TEST(test_paper_stroke_time__table_a1__equals_integrated_mass)
 {
   int which, law, direction;
   for (which = 0; which < PAPER_ACTUATOR_COUNT; which++) {
@@ -296,20 +296,20 @@ static double constant_flow(double P_up, double P_dn)
 }
 
 /* under a constant flow the scaled times differ by S z (1 - z)/P_mean, S the change of pressure: area S/(6 P_mean) */
-static void test_paper_asymmetry__constant_flow__closed_form(void **state)
+TEST(test_paper_asymmetry__constant_flow__closed_form)
 {
   paper_case c = ideal_case(constant_flow, 0.0);
   assert_close(paper_asymmetry(&c), 0.9 * 160e3 / (6.0 * 260e3), 0, 1e-4);
 }
 
-static void test_paper_asymmetry__no_change_of_pressure__zero(void **state)
+TEST(test_paper_asymmetry__no_change_of_pressure__zero)
 {
   paper_case c = ideal_case(constant_flow, 0.0);
   c.actuator = paper_actuator_with_bench(&c.actuator, 160e3, 160e3 + 1e-6);
   assert_close(paper_asymmetry(&c), 0.0, 1e-12, 0);
 }
 
-static void test_paper_symmetric_bench__r1_400__equal_times(void **state)
+TEST(test_paper_symmetric_bench__r1_400__equal_times)
 {
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
   double p_bl = paper_symmetric_bench(&c);
@@ -318,7 +318,7 @@ static void test_paper_symmetric_bench__r1_400__equal_times(void **state)
   assert_close(paper_stroke_time(&c, PAPER_UP), paper_stroke_time(&c, PAPER_DOWN), 0, 1e-9);
 }
 
-static void test_paper_symmetric_bench__supply_below_width__nan(void **state)
+TEST(test_paper_symmetric_bench__supply_below_width__nan)
 {
   paper_case c = ideal_case(paper_flow_unchoked, 1.0);
   c.actuator.supply = 150e3;
@@ -327,7 +327,7 @@ static void test_paper_symmetric_bench__supply_below_width__nan(void **state)
 
 /* ---- Rows ---- */
 
-static void test_paper_agreement__digits__three_words(void **state)
+TEST(test_paper_agreement__digits__three_words)
 {
   assert_string_equal(paper_agreement(0.596, 0.59629, 0.001, 0), "yes");
   assert_string_equal(paper_agreement(0.5, 0.55, 0.1, 0), "yes");
@@ -374,7 +374,7 @@ static double computed(size_t row)
 }
 
 /* the numbers by hand: fractions and roots, derived in study/PAPER.md */
-static void test_paper_numbers__required_items__hand_values(void **state)
+TEST(test_paper_numbers__required_items__hand_values)
 {
   const struct {
     const char *item;
@@ -434,7 +434,7 @@ static void test_paper_numbers__required_items__hand_values(void **state)
   }
 }
 
-static void test_paper_numbers__conclusion_10__unbounded(void **state)
+TEST(test_paper_numbers__conclusion_10__unbounded)
 {
   const double ratio = computed(row_named("conclusion10.ratio"));
   assert_true(isinf(ratio) && ratio > 0);
@@ -463,7 +463,7 @@ static void check_complete(size_t i)
   assert_int_equal(row_named(table_text(&numbers, i, "item")), i);
 }
 
-static void test_paper_numbers__every_row__complete_and_unique(void **state)
+TEST(test_paper_numbers__every_row__complete_and_unique)
 {
   size_t i;
   assert_true(table_rows(&numbers) > 100);
@@ -473,7 +473,7 @@ static void test_paper_numbers__every_row__complete_and_unique(void **state)
 }
 
 /* What only gives an order of magnitude, follows from another row, or was never said, does not count. */
-static void test_paper_numbers__no_statement_of_the_paper__not_counted(void **state)
+TEST(test_paper_numbers__no_statement_of_the_paper__not_counted)
 {
   static const char *const asides[] = {"eq8.excess",
                                        "example1.ambient",
@@ -495,7 +495,7 @@ static void test_paper_numbers__no_statement_of_the_paper__not_counted(void **st
   assert_string_equal(text_of("table1.3", "counted"), "yes");
 }
 
-static void test_paper_numbers__statements__all_conclusions_among_them(void **state)
+TEST(test_paper_numbers__statements__all_conclusions_among_them)
 {
   size_t i;
   int number;
@@ -510,7 +510,7 @@ static void test_paper_numbers__statements__all_conclusions_among_them(void **st
   }
 }
 
-static void test_paper_numbers__same_fault__same_cause_and_severity(void **state)
+TEST(test_paper_numbers__same_fault__same_cause_and_severity)
 {
   assert_string_equal(text_of("conclusion13.springs_3", "cause"),
                       text_of("conclusion4.37-13", "cause")); /* a limit at a pressure that the stem does not reach */
@@ -530,7 +530,7 @@ static void assert_header(const table *t, const char *want)
   assert_string_equal(got, want);
 }
 
-static void test_paper_numbers__all__header(void **state)
+TEST(test_paper_numbers__all__header)
 {
   assert_header(&numbers, "item,quantity,unit,printed,computed,agrees,note,kind,cause,statement,severity,counted");
 }
@@ -538,7 +538,7 @@ static void test_paper_numbers__all__header(void **state)
 /* ---- Figures ---- */
 
 /* v^2 = r^2 - r for the paper's law; for the nozzle a straight line above r = 1/0.528 */
-static void test_paper_figure__fig05_both_laws__known_curves(void **state)
+TEST(test_paper_figure__fig05_both_laws__known_curves)
 {
   double c = sqrt(0.7) / 1.728;
   size_t i;
@@ -558,7 +558,7 @@ static void test_paper_figure__fig05_both_laws__known_curves(void **state)
   table_close(&t);
 }
 
-static void test_paper_figure__fig06_paper_flow__eq25_and_band(void **state)
+TEST(test_paper_figure__fig06_paper_flow__eq25_and_band)
 {
   size_t i, in_band = 0, spring = 0;
   table t;
@@ -582,7 +582,7 @@ static void test_paper_figure__fig06_paper_flow__eq25_and_band(void **state)
   table_close(&t);
 }
 
-static void test_paper_figure__fig07_paper_flow__solves_eq33(void **state)
+TEST(test_paper_figure__fig07_paper_flow__solves_eq33)
 {
   size_t i;
   table t;
@@ -598,7 +598,7 @@ static void test_paper_figure__fig07_paper_flow__solves_eq33(void **state)
   table_close(&t);
 }
 
-static void test_paper_figure__fig08_paper_flow__rises_to_golden_ratio(void **state)
+TEST(test_paper_figure__fig08_paper_flow__rises_to_golden_ratio)
 {
   double last = 0.5, low = INFINITY, high = 0.0;
   size_t i;
@@ -625,47 +625,5 @@ static void test_paper_figure__fig08_paper_flow__rises_to_golden_ratio(void **st
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_paper_flow_unchoked__whole_numbers__exact),
-      cmocka_unit_test(test_paper_flow_choked__below_critical__constant),
-      cmocka_unit_test(test_paper_flow_choked__above_critical__isentropic),
-      cmocka_unit_test(test_paper_flow_choked__small_drop__meets_unchoked),
-      cmocka_unit_test(test_paper_fill_speed__ratio_five__root_of_twenty),
-      cmocka_unit_test(test_paper_vent_speed__ends__zero_and_half),
-      cmocka_unit_test(test_paper_speed_change__table_1__fractions),
-      cmocka_unit_test(test_paper_speed_change__choked_throughout__none),
-      cmocka_unit_test(test_paper_critical_pressure__special_ratios__exact),
-      cmocka_unit_test(test_paper_critical_pressure__any_ratio__solves_eq31),
-      cmocka_unit_test(test_paper_crossing__unchoked__is_eq35),
-      cmocka_unit_test(test_paper_crossing__choked__closed_form),
-      cmocka_unit_test(test_paper_supply_threshold__eq30__roots),
-      cmocka_unit_test(test_paper_speed_scale__equal_areas__root_of_2RT),
-      cmocka_unit_test(test_paper_returned_share__bench_sets__mean_pressure),
-      cmocka_unit_test(test_paper_exergy_efficiency__pressure_ratio_e__closed_form),
-      cmocka_unit_test(test_paper_actuator_with_bench__table_a1__implied_springs),
-      cmocka_unit_test(test_paper_actuators__table_a1__as_printed),
-      cmocka_unit_test(test_paper_pressure__both_directions__friction_changes_sign),
-      cmocka_unit_test(test_paper_speed__top_of_bench_set__hand_values),
-      cmocka_unit_test(test_paper_speed__dead_volume__slows),
-      cmocka_unit_test(test_paper_speed__falling__gains_speed_by_criterion),
-      cmocka_unit_test(test_paper_stroke_time__choked_vent__constant_velocity),
-      cmocka_unit_test(test_paper_stroke_time__table_a1__equals_integrated_mass),
-      cmocka_unit_test(test_paper_asymmetry__constant_flow__closed_form),
-      cmocka_unit_test(test_paper_asymmetry__no_change_of_pressure__zero),
-      cmocka_unit_test(test_paper_symmetric_bench__r1_400__equal_times),
-      cmocka_unit_test(test_paper_symmetric_bench__supply_below_width__nan),
-      cmocka_unit_test(test_paper_agreement__digits__three_words),
-      cmocka_unit_test(test_paper_numbers__required_items__hand_values),
-      cmocka_unit_test(test_paper_numbers__conclusion_10__unbounded),
-      cmocka_unit_test(test_paper_numbers__every_row__complete_and_unique),
-      cmocka_unit_test(test_paper_numbers__no_statement_of_the_paper__not_counted),
-      cmocka_unit_test(test_paper_numbers__statements__all_conclusions_among_them),
-      cmocka_unit_test(test_paper_numbers__same_fault__same_cause_and_severity),
-      cmocka_unit_test(test_paper_numbers__all__header),
-      cmocka_unit_test(test_paper_figure__fig05_both_laws__known_curves),
-      cmocka_unit_test(test_paper_figure__fig06_paper_flow__eq25_and_band),
-      cmocka_unit_test(test_paper_figure__fig07_paper_flow__solves_eq33),
-      cmocka_unit_test(test_paper_figure__fig08_paper_flow__rises_to_golden_ratio),
-  };
-  return cmocka_run_group_tests(tests, make_numbers, close_numbers);
+  return tests_run(make_numbers, close_numbers);
 }

@@ -36,7 +36,7 @@ static void write_pump(const char *name, double level, double delay)
 
 static const char pump[] = "study/measured/pump-fed-chamber-control.cfg";
 
-static void test_replicates__levels_of_three_runs__their_standard_deviation(void **state)
+TEST(test_replicates__levels_of_three_runs__their_standard_deviation)
 {
   write_pump("a.csv", 1, 0);
   write_pump("b.csv", 2, 0);
@@ -46,7 +46,7 @@ static void test_replicates__levels_of_three_runs__their_standard_deviation(void
       1000, 1e-9, 0);
 }
 
-static void test_replicates__runs_that_begin_at_other_times__are_aligned_by_the_step(void **state)
+TEST(test_replicates__runs_that_begin_at_other_times__are_aligned_by_the_step)
 {
   write_pump("a.csv", 1, 0);
   write_pump("b.csv", 1, 0.37);
@@ -55,7 +55,7 @@ static void test_replicates__runs_that_begin_at_other_times__are_aligned_by_the_
       0, 1e-6, 0);
 }
 
-static void test_replicates__no_two_runs__are_not_known(void **state)
+TEST(test_replicates__no_two_runs__are_not_known)
 {
   write_pump("a.csv", 1, 0);
   assert_true(isnan(repeat_of(pump, "pressure", "\"a.csv\"", "")));
@@ -76,7 +76,7 @@ static void write_strokes(const char *name, double scatter)
   fclose(file);
 }
 
-static void test_replicates__strokes__paired_by_direction_less_the_measured_pressure(void **state)
+TEST(test_replicates__strokes__paired_by_direction_less_the_measured_pressure)
 {
   double repeat;
   write_strokes("s.csv", 0.5);
@@ -90,7 +90,7 @@ static void test_replicates__strokes__paired_by_direction_less_the_measured_pres
                  0, 1e-3);
 }
 
-static void test_replicates__channel_that_is_not_there__is_refused(void **state)
+TEST(test_replicates__channel_that_is_not_there__is_refused)
 {
   config_t config;
   double repeat;
@@ -107,12 +107,5 @@ static void test_replicates__channel_that_is_not_there__is_refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_replicates__levels_of_three_runs__their_standard_deviation),
-      cmocka_unit_test(test_replicates__runs_that_begin_at_other_times__are_aligned_by_the_step),
-      cmocka_unit_test(test_replicates__no_two_runs__are_not_known),
-      cmocka_unit_test(test_replicates__strokes__paired_by_direction_less_the_measured_pressure),
-      cmocka_unit_test(test_replicates__channel_that_is_not_there__is_refused),
-  };
-  return cmocka_run_group_tests_name("replicates", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -58,7 +58,7 @@ static const char *const numbers =
     "g,q,1,,1,no,n,arithmetic,a sign,Eq. 5,form,yes\n";
 
 /* Eq. 1 disagrees in one of its rows, 7 is printed once and tried twice, e is an aside. */
-static void test_report__rows_of_one_statement__counted_once(void **state)
+TEST(test_report__rows_of_one_statement__counted_once)
 {
   report_with("paper_numbers.csv", numbers);
   assert_contains(text, "Of 5 ");
@@ -67,7 +67,7 @@ static void test_report__rows_of_one_statement__counted_once(void **state)
   assert_contains(text, "None turns with a threshold");
 }
 
-static void test_report__three_causes__each_once_by_what_it_changes(void **state)
+TEST(test_report__three_causes__each_once_by_what_it_changes)
 {
   report_with("paper_numbers.csv", numbers);
   assert_contains(text, "|\n| a gap | modelling | Eq. 4 | |\n\n"
@@ -75,7 +75,7 @@ static void test_report__three_causes__each_once_by_what_it_changes(void **state
                         "Matters of form: a sign.\n");
 }
 
-static void test_report__laws_that_differ__counted_and_marked(void **state)
+TEST(test_report__laws_that_differ__counted_and_marked)
 {
   scratch_text("conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"
                                             "1,one,printed,isothermal,paper,1,,1,holds,e\n"
@@ -93,7 +93,7 @@ static void test_report__laws_that_differ__counted_and_marked(void **state)
 }
 
 /* 2 has a mark, 3 fails in one law. */
-static void test_report__conclusions_that_hold_throughout__in_words(void **state)
+TEST(test_report__conclusions_that_hold_throughout__in_words)
 {
   scratch_text("conclusions_actuators.csv", "conclusion,actuator,set,gas,flow,value,low,high,verdict,evidence\n"
                                             "1,one,printed,isothermal,paper,1,,1,contradicted,e\n"
@@ -114,7 +114,7 @@ static void test_report__conclusions_that_hold_throughout__in_words(void **state
 }
 
 /* 20 % is left in one law, 5 % in the other: two verdicts; the other actuator is the same in both. */
-static void test_report__hypothesis_that_differs_by_law__is_marked(void **state)
+TEST(test_report__hypothesis_that_differs_by_law__is_marked)
 {
   report_with("hypotheses_thresholds.csv", "actuator,hypothesis,gas,flow,share_left,share_left_signed,"
                                            "share_alone,share_alone_signed,depends_on_threshold\n"
@@ -125,7 +125,7 @@ static void test_report__hypothesis_that_differs_by_law__is_marked(void **state)
   assert_contains(text, "† turns with a threshold");
 }
 
-static void test_report__no_table__data_error(void **state)
+TEST(test_report__no_table__data_error)
 {
   remove(scratch_path("conclusions_thresholds.csv"));
   assert_int_equal(report_make(made_up(), &error), LAB_DATA);
@@ -134,13 +134,5 @@ static void test_report__no_table__data_error(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_report__rows_of_one_statement__counted_once),
-      cmocka_unit_test(test_report__three_causes__each_once_by_what_it_changes),
-      cmocka_unit_test(test_report__laws_that_differ__counted_and_marked),
-      cmocka_unit_test(test_report__conclusions_that_hold_throughout__in_words),
-      cmocka_unit_test(test_report__hypothesis_that_differs_by_law__is_marked),
-      cmocka_unit_test(test_report__no_table__data_error),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -37,12 +37,12 @@ static int absent(const char *text)
   return status == LAB_OK ? count : status == LAB_DATA ? -1 : -2;
 }
 
-static void test_sets_run__no_data__are_absent(void **state)
+TEST(test_sets_run__no_data__are_absent)
 {
   assert_int_equal(absent("sets = ( " SET("one", "") ", " SET("two", "") " );"), 2);
 }
 
-static void test_sets_run__set_that_lacks_something__is_refused(void **state)
+TEST(test_sets_run__set_that_lacks_something__is_refused)
 {
   assert_int_equal(absent("sets = ( { name = \"one\"; } );"), -1);
   assert_contains(error.text, "expected the text rig");
@@ -147,7 +147,7 @@ static const char *report_of(const char *set, const char *verdict, const char *h
   return report_repeating(set, verdict, held, (double)NAN);
 }
 
-static void test_sets_report__row__has_units_noise_and_verdict(void **state)
+TEST(test_sets_report__row__has_units_noise_and_verdict)
 {
   const char *text = report_of(ONE(""), undecided, "75e-5");
   assert_contains(text,
@@ -158,20 +158,20 @@ static void test_sets_report__row__has_units_noise_and_verdict(void **state)
   assert_contains(text, "Of 2 logs ");
 }
 
-static void test_sets_report__held_out_error_that_grows__is_told(void **state)
+TEST(test_sets_report__held_out_error_that_grows__is_told)
 {
   const char *text = report_of(ONE(""), undecided, "6e-3");
   assert_contains(text, " 0 of 1; not in: T one");
 }
 
-static void test_sets_report__undecided__says_how_much_is_left(void **state)
+TEST(test_sets_report__undecided__says_how_much_is_left)
 {
   const char *text = report_of(ONE(""), undecided, "75e-5");
   assert_contains(text, "2.5 times the noise");
   assert_contains(text, "presliding, pressure_gain.");
 }
 
-static void test_sets_report__no_more_left_than_the_bench_repeats__is_explained(void **state)
+TEST(test_sets_report__no_more_left_than_the_bench_repeats__is_explained)
 {
   const char *text = report_repeating(ONE(""), undecided, "2e-4", 2.1e-4);
   assert_contains(text, "| 0.1 mm | 0.21 mm (2.1) | 4 mm (40)");
@@ -181,26 +181,26 @@ static void test_sets_report__no_more_left_than_the_bench_repeats__is_explained(
                   "repeats: 0.21 mm, 2.1 times the noise; the completed model leaves 1.19 times that, held out 0.952.");
 }
 
-static void test_sets_report__more_left_than_noise__is_not_explained(void **state)
+TEST(test_sets_report__more_left_than_noise__is_not_explained)
 {
   const char *text = report_repeating(ONE(""), explained, "2e-4", 2e-4);
   assert_contains(text, "| undecided |");
 }
 
-static void test_sets_report__more_left_of_runs_held_out__is_told(void **state)
+TEST(test_sets_report__more_left_of_runs_held_out__is_told)
 {
   const char *text = report_repeating(ONE(""), explained, "75e-5", 2.1e-4);
   assert_contains(text, "| explained on the runs fitted only |");
   assert_contains(text, "On the runs held out more is left");
 }
 
-static void test_sets_report__doubt__is_the_reason(void **state)
+TEST(test_sets_report__doubt__is_the_reason)
 {
   const char *text = report_of(ONE(""), doubted, "75e-5");
   assert_contains(text, "undecided: too short\n");
 }
 
-static void test_sets_report__section__shows_the_way_and_the_others(void **state)
+TEST(test_sets_report__section__shows_the_way_and_the_others)
 {
   const char *text = report_of(ONE(""), undecided, "75e-5");
   assert_contains(text, "| declared model | 4 | 7 | 5 | 9 |\n| presliding | 1 | 7 | 0.5 | 9 |\n"
@@ -214,14 +214,14 @@ static void test_sets_report__section__shows_the_way_and_the_others(void **state
   assert_null(strstr(text, "What took no part is"));
 }
 
-static void test_sets_report__held_out_error_that_falls__has_no_warning(void **state)
+TEST(test_sets_report__held_out_error_that_falls__has_no_warning)
 {
   const char *text = report_of(ONE(""), undecided, "4e-4");
   assert_null(strstr(text, "lowest on the way"));
   assert_null(strstr(text, "is not nearest"));
 }
 
-static void test_sets_report__parameters__known_and_undetermined(void **state)
+TEST(test_sets_report__parameters__known_and_undetermined)
 {
   const char *text = report_of(ONE("given = \"spring_rate\"; as_pressure = \"kPa\";"), undecided, "75e-5");
   assert_contains(text, "spring_rate = 2.844e+05 (2e+05 to 3e+05) N/m\n");
@@ -231,14 +231,14 @@ static void test_sets_report__parameters__known_and_undetermined(void **state)
   assert_contains(text, "2.1 kPa a mm: 8.4 before, 0.525 after; held out 10.5 before, 1.57 after");
 }
 
-static void test_sets_report__given_that_was_not_fitted__is_refused(void **state)
+TEST(test_sets_report__given_that_was_not_fitted__is_refused)
 {
   write_report(undecided, "75e-5");
   assert_int_equal(report_on(ONE("given = \"area\";"), (sets_result){.repeat = (double)NAN}), LAB_DATA);
   assert_contains(error.text, "given: area is not among the parameters that were fitted");
 }
 
-static void test_sets_report__what_is_left__is_told_by_log(void **state)
+TEST(test_sets_report__what_is_left__is_told_by_log)
 {
   const char *text = report_of(ONE(""), undecided, "75e-5");
   assert_contains(text, "- Fitted: a.csv, b.csv.\n- Held out: c.csv, a.csv (rows that were not fitted).\n");
@@ -248,7 +248,7 @@ static void test_sets_report__what_is_left__is_told_by_log(void **state)
                         "is nearer in 1; it is farther off than the declared one in: d.csv.\n");
 }
 
-static void test_sets_report__check__is_a_row_without_noise(void **state)
+TEST(test_sets_report__check__is_a_row_without_noise)
 {
   const char *text = report_of(ONE("check = \"position\"; check_unit = \"cm\";"), undecided, "75e-5");
   assert_contains(text, "| - the same, not fitted | position | - | - | - | - | 0.4 cm | 0.025 cm | | |");
@@ -257,7 +257,7 @@ static void test_sets_report__check__is_a_row_without_noise(void **state)
                   "What took no part is a channel that was not fitted, not a run held out, in: T one (position).\n");
 }
 
-static void test_sets_report__sets_that_did_not_run__stay_in_the_table(void **state)
+TEST(test_sets_report__sets_that_did_not_run__stay_in_the_table)
 {
   sets_result result[2];
   config_t config;
@@ -289,7 +289,7 @@ static const char *report_alone(double noises)
   return text_on(ONE(""), result);
 }
 
-static void test_sets_report__log_explained_by_its_own_values__differs_from_the_others(void **state)
+TEST(test_sets_report__log_explained_by_its_own_values__differs_from_the_others)
 {
   const char *text = report_alone(1.1);
   assert_contains(text, "| c.csv | 0.5 | 0.11 | 1.1 | k 2 +- 0.1 N/m; b 0, at a bound; 1 not determined |");
@@ -298,14 +298,14 @@ static void test_sets_report__log_explained_by_its_own_values__differs_from_the_
   assert_contains(text, "shows only between logs, in 1: T one (0.5 to 0.11 mm).");
 }
 
-static void test_sets_report__log_that_own_values_do_not_explain__lacks_something(void **state)
+TEST(test_sets_report__log_that_own_values_do_not_explain__lacks_something)
 {
   const char *text = report_alone(1.3);
   assert_contains(text, "With values of their own the logs held out leave 0.13 mm, with common ones 0.5: ");
   assert_null(strstr(text, "what is missing shows only between the logs"));
 }
 
-static void test_sets_report__channel_through_its_sensor__is_told(void **state)
+TEST(test_sets_report__channel_through_its_sensor__is_told)
 {
   write_report(undecided, "75e-5");
   assert_contains(text_on(ONE("check = \"position\"; check_unit = \"cm\";"),
@@ -316,7 +316,7 @@ static void test_sets_report__channel_through_its_sensor__is_told(void **state)
 
 /* ---- Its parts ---- */
 
-static void test_sets_left__slow_wave__correlated_at_lag_1(void **state)
+TEST(test_sets_left__slow_wave__correlated_at_lag_1)
 {
   char text[4096] = "run [1],t [s],p [Pa],p_after [Pa]\n";
   sets_left left;
@@ -338,7 +338,7 @@ static void test_sets_left__slow_wave__correlated_at_lag_1(void **state)
   table_close(&t);
 }
 
-static void test_sets_within__parts__in_any_order(void **state)
+TEST(test_sets_within__parts__in_any_order)
 {
   assert_true(sets_within("a + b", "b + a"));
   assert_false(sets_within("a + b", "a + bc"));
@@ -348,7 +348,7 @@ static void test_sets_within__parts__in_any_order(void **state)
 }
 
 /* A number is measured or it is not written: words on results hold none. */
-static void test_sets_cfg__words__hold_no_figures(void **state)
+TEST(test_sets_cfg__words__hold_no_figures)
 {
   static const char *const words[] = {"declared", "remains"};
   const config_setting_t *list;
@@ -369,29 +369,5 @@ static void test_sets_cfg__words__hold_no_figures(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_sets_run__no_data__are_absent),
-      cmocka_unit_test(test_sets_run__set_that_lacks_something__is_refused),
-      cmocka_unit_test(test_sets_report__row__has_units_noise_and_verdict),
-      cmocka_unit_test(test_sets_report__held_out_error_that_grows__is_told),
-      cmocka_unit_test(test_sets_report__undecided__says_how_much_is_left),
-      cmocka_unit_test(test_sets_report__no_more_left_than_the_bench_repeats__is_explained),
-      cmocka_unit_test(test_sets_report__more_left_than_noise__is_not_explained),
-      cmocka_unit_test(test_sets_report__more_left_of_runs_held_out__is_told),
-      cmocka_unit_test(test_sets_report__doubt__is_the_reason),
-      cmocka_unit_test(test_sets_report__section__shows_the_way_and_the_others),
-      cmocka_unit_test(test_sets_report__held_out_error_that_falls__has_no_warning),
-      cmocka_unit_test(test_sets_report__parameters__known_and_undetermined),
-      cmocka_unit_test(test_sets_report__given_that_was_not_fitted__is_refused),
-      cmocka_unit_test(test_sets_report__what_is_left__is_told_by_log),
-      cmocka_unit_test(test_sets_report__log_explained_by_its_own_values__differs_from_the_others),
-      cmocka_unit_test(test_sets_report__log_that_own_values_do_not_explain__lacks_something),
-      cmocka_unit_test(test_sets_report__channel_through_its_sensor__is_told),
-      cmocka_unit_test(test_sets_report__check__is_a_row_without_noise),
-      cmocka_unit_test(test_sets_report__sets_that_did_not_run__stay_in_the_table),
-      cmocka_unit_test(test_sets_left__slow_wave__correlated_at_lag_1),
-      cmocka_unit_test(test_sets_within__parts__in_any_order),
-      cmocka_unit_test(test_sets_cfg__words__hold_no_figures),
-  };
-  return cmocka_run_group_tests_name("sets", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -36,17 +36,17 @@ static void check_law(int flow, double held)
   }
 }
 
-static void test_linear_model_init__any_ratio__is_in_proportion_to_the_difference(void **state)
+TEST(test_linear_model_init__any_ratio__is_in_proportion_to_the_difference)
 {
   check_law(LINEAR_FLOW, -1);
 }
 
-static void test_linear_model_init__below_the_critical_ratio__is_held(void **state)
+TEST(test_linear_model_init__below_the_critical_ratio__is_held)
 {
   check_law(LINEAR_CHOKED_FLOW, pow(2 / 2.3, 1.3 / 0.3));
 }
 
-static void test_linear_model_init__law_of_the_library__is_that_of_pneu_model_init(void **state)
+TEST(test_linear_model_init__law_of_the_library__is_that_of_pneu_model_init)
 {
   pneu_model model;
   pneu_laws laws = {PNEU_GAS_ENERGY, PNEU_FLOW_ISO6358, 0, 0};
@@ -59,10 +59,5 @@ static void test_linear_model_init__law_of_the_library__is_that_of_pneu_model_in
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_linear_model_init__any_ratio__is_in_proportion_to_the_difference),
-      cmocka_unit_test(test_linear_model_init__below_the_critical_ratio__is_held),
-      cmocka_unit_test(test_linear_model_init__law_of_the_library__is_that_of_pneu_model_init),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -34,7 +34,7 @@ static const char *file_with(const char *key, const char *instead)
   return scratch_text("study.cfg", text);
 }
 
-static void test_study_read__whole_file__is_taken_up(void **state)
+TEST(test_study_read__whole_file__is_taken_up)
 {
   succeed(study_read(file_with("", ""), &s, &error));
   assert_int_equal(s.n_actuators, 1);
@@ -50,7 +50,7 @@ static void test_study_read__whole_file__is_taken_up(void **state)
   assert_close(s.bench[0].high, 240e3, 1e-6, 0);
 }
 
-static void test_study_read__bad_keys__are_refused(void **state)
+TEST(test_study_read__bad_keys__are_refused)
 {
   static const struct {
     const char *key, *instead, *words;
@@ -89,7 +89,7 @@ static void test_study_read__bad_keys__are_refused(void **state)
 }
 
 /* A path that the file cannot be beside. */
-static void test_study_read__path_too_long__is_refused(void **state)
+TEST(test_study_read__path_too_long__is_refused)
 {
   char path[2 * STUDY_PATH_TEXT], text[3 * STUDY_PATH_TEXT];
   memset(path, 'a', sizeof path);
@@ -105,7 +105,7 @@ static void test_study_read__path_too_long__is_refused(void **state)
   assert_contains(error.text, "there is no such file");
 }
 
-static void test_study_save__table__is_written_and_noted(void **state)
+TEST(test_study_save__table__is_written_and_noted)
 {
   static study_saved saved;
   table t;
@@ -128,7 +128,7 @@ static void test_study_save__table__is_written_and_noted(void **state)
   table_close(&t);
 }
 
-static void test_study_laws__others_than_the_rig_s__keep_its_inputs(void **state)
+TEST(test_study_laws__others_than_the_rig_s__keep_its_inputs)
 {
   lab_rig rig;
   pneu_laws laws;
@@ -142,12 +142,5 @@ static void test_study_laws__others_than_the_rig_s__keep_its_inputs(void **state
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_study_read__whole_file__is_taken_up),
-      cmocka_unit_test(test_study_read__bad_keys__are_refused),
-      cmocka_unit_test(test_study_read__path_too_long__is_refused),
-      cmocka_unit_test(test_study_save__table__is_written_and_noted),
-      cmocka_unit_test(test_study_laws__others_than_the_rig_s__keep_its_inputs),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

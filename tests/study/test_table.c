@@ -20,7 +20,7 @@ static void written(const table *t, char *text, size_t size)
   fclose(file);
 }
 
-static void test_table_write__numbers_and_text__rows_in_order(void **state)
+TEST(test_table_write__numbers_and_text__rows_in_order)
 {
   char text[256];
   table t;
@@ -32,7 +32,7 @@ static void test_table_write__numbers_and_text__rows_in_order(void **state)
   table_close(&t);
 }
 
-static void test_table_write__commas_quotes_breaks__quoted(void **state)
+TEST(test_table_write__commas_quotes_breaks__quoted)
 {
   char text[256];
   table t;
@@ -43,7 +43,7 @@ static void test_table_write__commas_quotes_breaks__quoted(void **state)
   table_close(&t);
 }
 
-static void test_table_write__nan_infinity_negative_zero__empty_inf_zero(void **state)
+TEST(test_table_write__nan_infinity_negative_zero__empty_inf_zero)
 {
   char text[256];
   table t;
@@ -54,7 +54,7 @@ static void test_table_write__nan_infinity_negative_zero__empty_inf_zero(void **
   table_close(&t);
 }
 
-static void test_table_row__many_rows__all_kept(void **state)
+TEST(test_table_row__many_rows__all_kept)
 {
   table t;
   int i;
@@ -69,7 +69,7 @@ static void test_table_row__many_rows__all_kept(void **state)
   table_close(&t);
 }
 
-static void test_table_row__text_given__copied(void **state)
+TEST(test_table_row__text_given__copied)
 {
   char name[] = "before";
   table t;
@@ -80,7 +80,7 @@ static void test_table_row__text_given__copied(void **state)
   table_close(&t);
 }
 
-static void test_table_write__file_refuses__world_error(void **state)
+TEST(test_table_write__file_refuses__world_error)
 {
   lab_error error;
   table t;
@@ -93,7 +93,7 @@ static void test_table_write__file_refuses__world_error(void **state)
   table_close(&t);
 }
 
-static void test_table_write__memory_ran_out__world_error(void **state)
+TEST(test_table_write__memory_ran_out__world_error)
 {
   lab_error error;
   table t;
@@ -107,14 +107,5 @@ static void test_table_write__memory_ran_out__world_error(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_table_write__numbers_and_text__rows_in_order),
-      cmocka_unit_test(test_table_write__commas_quotes_breaks__quoted),
-      cmocka_unit_test(test_table_write__nan_infinity_negative_zero__empty_inf_zero),
-      cmocka_unit_test(test_table_row__many_rows__all_kept),
-      cmocka_unit_test(test_table_row__text_given__copied),
-      cmocka_unit_test(test_table_write__file_refuses__world_error),
-      cmocka_unit_test(test_table_write__memory_ran_out__world_error),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

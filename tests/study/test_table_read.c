@@ -14,7 +14,7 @@ static void assert_refused(const char *text, const char *words)
   table_close(&t);
 }
 
-static void test_table_load_file__quotes_and_numbers__are_read(void **state)
+TEST(test_table_load_file__quotes_and_numbers__are_read)
 {
   table t;
   assert_int_equal(
@@ -28,7 +28,7 @@ static void test_table_load_file__quotes_and_numbers__are_read(void **state)
   table_close(&t);
 }
 
-static void test_table_load_file__column_that_is_missing__is_empty(void **state)
+TEST(test_table_load_file__column_that_is_missing__is_empty)
 {
   table t;
   assert_int_equal(table_load_file(scratch_text("t.csv", "name,value\na,1\n"), &t, &error), LAB_OK);
@@ -38,13 +38,13 @@ static void test_table_load_file__column_that_is_missing__is_empty(void **state)
   table_close(&t);
 }
 
-static void test_table_load_file__row_of_other_length__is_refused(void **state)
+TEST(test_table_load_file__row_of_other_length__is_refused)
 {
   assert_refused("a,b\n1,2\n1\n", "t.csv:3: expected 2 fields");
   assert_refused("a,b\n1,2,3\n", "t.csv:2: expected 2 fields");
 }
 
-static void test_table_load_file__no_file__is_refused(void **state)
+TEST(test_table_load_file__no_file__is_refused)
 {
   table t;
   assert_int_equal(table_load_file(scratch_path("nothere.csv"), &t, &error), LAB_DATA);
@@ -52,7 +52,7 @@ static void test_table_load_file__no_file__is_refused(void **state)
   table_close(&t);
 }
 
-static void test_table_load__results_folder__is_where_it_looks(void **state)
+TEST(test_table_load__results_folder__is_where_it_looks)
 {
   static study s;
   table t;
@@ -65,12 +65,5 @@ static void test_table_load__results_folder__is_where_it_looks(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_table_load_file__quotes_and_numbers__are_read),
-      cmocka_unit_test(test_table_load_file__column_that_is_missing__is_empty),
-      cmocka_unit_test(test_table_load_file__row_of_other_length__is_refused),
-      cmocka_unit_test(test_table_load_file__no_file__is_refused),
-      cmocka_unit_test(test_table_load__results_folder__is_where_it_looks),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

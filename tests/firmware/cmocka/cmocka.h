@@ -11,7 +11,7 @@
 struct CMUnitTest {
   const char *name;
   void (*test_func)(void **state);
-  void *setup_func, *teardown_func; /* of no use here */
+  int (*setup_func)(void **state), (*teardown_func)(void **state); /* of no use here */
   void *initial_state;
 };
 
@@ -50,13 +50,6 @@ static inline void print_error(const char *format, ...)
 #define assert_string_not_equal(a, b)     assert_true(strcmp(a, b) != 0)
 #define assert_memory_equal(a, b, n)      assert_true(memcmp(a, b, n) == 0)
 
-#define cmocka_unit_test(function)                                                                                     \
-  {                                                                                                                    \
-#function, function, NULL, NULL, NULL                                                                              \
-  }
-#define cmocka_run_group_tests(tests, setup, teardown)                                                                 \
-  cmocka_run(tests, (int)(sizeof(tests) / sizeof *(tests)), (setup) == (teardown))
-
 static inline int cmocka_run_one(const struct CMUnitTest *test)
 {
   static const char *const words[CMOCKA_OUTCOMES] = {"      OK", " FAILED ", " SKIPPED"};
@@ -68,10 +61,13 @@ static inline int cmocka_run_one(const struct CMUnitTest *test)
   return outcome;
 }
 
-static inline int cmocka_run(const struct CMUnitTest *test, int n, int plain)
+static inline int _cmocka_run_group_tests(const char *group, const struct CMUnitTest *test, size_t n,
+                                          int (*setup)(void **state), int (*teardown)(void **state))
 {
-  int count[CMOCKA_OUTCOMES] = {0}, i;
-  for (i = 0; plain && i < n; i++)
+  int count[CMOCKA_OUTCOMES] = {0};
+  size_t i;
+  (void)group;
+  for (i = 0; setup == teardown && i < n; i++)
     count[cmocka_run_one(&test[i])]++;
   printf("[  PASSED  ] %d test(s).\n", count[CMOCKA_PASSED]);
   if (count[CMOCKA_SKIPPED])

@@ -67,7 +67,7 @@ static void drop_times(char *json)
 }
 
 /* With time enough: where it is spent depends on the machine. */
-static void test_lab_api_closeloop__same_files__same_texts(void **state)
+TEST(test_lab_api_closeloop__same_files__same_texts)
 {
   lab_api_request request = usual();
   char arguments[512], *json, *model, *residual;
@@ -100,7 +100,7 @@ static void stop(void *told, const char *what)
   lab_api_stop();
 }
 
-static void test_lab_api_stop__at_first_word__ends_without_answer(void **state)
+TEST(test_lab_api_stop__at_first_word__ends_without_answer)
 {
   lab_api_request request = usual();
   int told = 0;
@@ -114,7 +114,7 @@ static void test_lab_api_stop__at_first_word__ends_without_answer(void **state)
   lab_api_free_answer(&answer);
 }
 
-static void test_lab_api_closeloop__requests_at_fault__are_refused(void **state)
+TEST(test_lab_api_closeloop__requests_at_fault__are_refused)
 {
   const lab_text_given twice[] = {fit, {"fit.csv", "t [s]\n", 6}};
   const lab_text_given includes = {"rig.cfg", "@include \"other.cfg\"\n", 21};
@@ -136,7 +136,7 @@ static void test_lab_api_closeloop__requests_at_fault__are_refused(void **state)
   assert_contains(error.text, "@include");
 }
 
-static void test_lab_api_closeloop__text_at_fault__says_its_name(void **state)
+TEST(test_lab_api_closeloop__text_at_fault__says_its_name)
 {
   const lab_text_given empty = {"empty.csv", "", 0};
   lab_api_request request = usual();
@@ -145,7 +145,7 @@ static void test_lab_api_closeloop__text_at_fault__says_its_name(void **state)
   assert_contains(error.text, "empty.csv");
 }
 
-static void test_lab_api_simulate__log_and_step__as_the_program(void **state)
+TEST(test_lab_api_simulate__log_and_step__as_the_program)
 {
   char arguments[512], *want, *csv;
   snprintf(arguments, sizeof arguments, "simulate %srig.cfg %sfit.csv --out %s", folder, folder, scratch_path("s.csv"));
@@ -162,7 +162,7 @@ static void test_lab_api_simulate__log_and_step__as_the_program(void **state)
   free(want);
 }
 
-static void test_lab_api_draft__log_and_sheet__as_the_program(void **state)
+TEST(test_lab_api_draft__log_and_sheet__as_the_program)
 {
   const char *const sheet[] = {"area=400 cm2", "bench_set=0.2..1.0 bar"};
   const char *const wrong[] = {"aera=400 cm2"};
@@ -181,13 +181,5 @@ static void test_lab_api_draft__log_and_sheet__as_the_program(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_api_closeloop__same_files__same_texts),
-      cmocka_unit_test(test_lab_api_stop__at_first_word__ends_without_answer),
-      cmocka_unit_test(test_lab_api_closeloop__requests_at_fault__are_refused),
-      cmocka_unit_test(test_lab_api_closeloop__text_at_fault__says_its_name),
-      cmocka_unit_test(test_lab_api_simulate__log_and_step__as_the_program),
-      cmocka_unit_test(test_lab_api_draft__log_and_sheet__as_the_program),
-  };
-  return cmocka_run_group_tests(tests, read_inputs, free_inputs);
+  return tests_run(read_inputs, free_inputs);
 }

@@ -43,7 +43,7 @@ static void assert_usage(const char *line, const char *words)
   assert_contains(error.text, words);
 }
 
-static void test_lab_cli_read__all_options__set_their_values(void **state)
+TEST(test_lab_cli_read__all_options__set_their_values)
 {
   assert_int_equal(read_line("--out o.csv --step --grid 12 --tol 1e-3 --quiet m.cfg"), LAB_OK);
   assert_string_equal(text, "o.csv");
@@ -56,14 +56,14 @@ static void test_lab_cli_read__all_options__set_their_values(void **state)
   assert_string_equal(cli.operand[0], "m.cfg");
 }
 
-static void test_lab_cli_read__o__is_out(void **state)
+TEST(test_lab_cli_read__o__is_out)
 {
   assert_int_equal(read_line("-o o.csv m.cfg"), LAB_OK);
   assert_string_equal(text, "o.csv");
   assert_usage("m.cfg -o", "-o");
 }
 
-static void test_lab_cli_read__no_options__keeps_the_defaults(void **state)
+TEST(test_lab_cli_read__no_options__keeps_the_defaults)
 {
   assert_int_equal(read_line("m.cfg"), LAB_OK);
   assert_string_equal(text, "default");
@@ -73,7 +73,7 @@ static void test_lab_cli_read__no_options__keeps_the_defaults(void **state)
   assert_int_equal(cli.threads, 0);
 }
 
-static void test_lab_cli_read__options_between_operands__are_found(void **state)
+TEST(test_lab_cli_read__options_between_operands__are_found)
 {
   assert_int_equal(read_line("m.cfg --out=x l.csv --step"), LAB_OK);
   assert_string_equal(text, "x");
@@ -82,14 +82,14 @@ static void test_lab_cli_read__options_between_operands__are_found(void **state)
   assert_string_equal(cli.operand[1], "l.csv");
 }
 
-static void test_lab_cli_read__two_dashes__end_the_options(void **state)
+TEST(test_lab_cli_read__two_dashes__end_the_options)
 {
   assert_int_equal(read_line("-- --step"), LAB_OK);
   assert_int_equal(flag, 0);
   assert_string_equal(cli.operand[0], "--step");
 }
 
-static void test_lab_cli_read__threads__reach_openmp(void **state)
+TEST(test_lab_cli_read__threads__reach_openmp)
 {
   int before = omp_get_max_threads();
   assert_int_equal(read_line("--threads 3 m.cfg"), LAB_OK);
@@ -98,20 +98,20 @@ static void test_lab_cli_read__threads__reach_openmp(void **state)
   omp_set_num_threads(before);
 }
 
-static void test_lab_cli_read__unknown_option__names_the_nearest(void **state)
+TEST(test_lab_cli_read__unknown_option__names_the_nearest)
 {
   assert_usage("--stepp m.cfg", "--stepp: unknown or ambiguous option; the nearest known one is --step");
   assert_usage("m.cfg --quit", "--quiet");
   assert_usage("-x m.cfg", "-x");
 }
 
-static void test_lab_cli_read__argument_missing_or_too_many__is_said(void **state)
+TEST(test_lab_cli_read__argument_missing_or_too_many__is_said)
 {
   assert_usage("m.cfg --out", "--out: expected an argument");
   assert_usage("m.cfg --step=5", "--step=5");
 }
 
-static void test_lab_cli_read__bad_number__gives_the_bounds(void **state)
+TEST(test_lab_cli_read__bad_number__gives_the_bounds)
 {
   assert_usage("--grid 1 m.cfg", "--grid: expected a whole number, 2 to 50, found \"1\"");
   assert_usage("--grid 51 m.cfg", "found \"51\"");
@@ -123,7 +123,7 @@ static void test_lab_cli_read__bad_number__gives_the_bounds(void **state)
   assert_usage("--threads -1 m.cfg", "--threads");
 }
 
-static void test_lab_cli_read__wrong_number_of_operands__is_said(void **state)
+TEST(test_lab_cli_read__wrong_number_of_operands__is_said)
 {
   assert_usage("", "expected MODEL.cfg [LOG.csv], found 0 operands");
   assert_usage("a b c", "found 3 operands");
@@ -146,7 +146,7 @@ static char *output_of(const char *line)
   return scratch_read(path);
 }
 
-static void test_lab_cli_read__help__lists_every_option(void **state)
+TEST(test_lab_cli_read__help__lists_every_option)
 {
   char *shown = output_of("--help");
   const char *words[] = {"Usage: sample MODEL.cfg [LOG.csv]",
@@ -167,7 +167,7 @@ static void test_lab_cli_read__help__lists_every_option(void **state)
   free(shown);
 }
 
-static void test_lab_cli_read__version__names_program_and_library(void **state)
+TEST(test_lab_cli_read__version__names_program_and_library)
 {
   char *shown = output_of("--version");
   assert_int_equal(cli.done, 1);
@@ -175,7 +175,7 @@ static void test_lab_cli_read__version__names_program_and_library(void **state)
   free(shown);
 }
 
-static void test_lab_progress_count__no_terminal_or_quiet__writes_nothing(void **state)
+TEST(test_lab_progress_count__no_terminal_or_quiet__writes_nothing)
 {
   lab_progress progress;
   lab_progress_begin(&progress, "fit", 1);
@@ -198,7 +198,7 @@ static lab_progress begin_in(FILE *file)
   return progress;
 }
 
-static void test_lab_progress_count__half_done__tells_time_to_go_and_clears(void **state)
+TEST(test_lab_progress_count__half_done__tells_time_to_go_and_clears)
 {
   char path[512], *shown;
   FILE *file;
@@ -218,21 +218,5 @@ static void test_lab_progress_count__half_done__tells_time_to_go_and_clears(void
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_cli_read__all_options__set_their_values),
-      cmocka_unit_test(test_lab_cli_read__o__is_out),
-      cmocka_unit_test(test_lab_cli_read__no_options__keeps_the_defaults),
-      cmocka_unit_test(test_lab_cli_read__options_between_operands__are_found),
-      cmocka_unit_test(test_lab_cli_read__two_dashes__end_the_options),
-      cmocka_unit_test(test_lab_cli_read__threads__reach_openmp),
-      cmocka_unit_test(test_lab_cli_read__unknown_option__names_the_nearest),
-      cmocka_unit_test(test_lab_cli_read__argument_missing_or_too_many__is_said),
-      cmocka_unit_test(test_lab_cli_read__bad_number__gives_the_bounds),
-      cmocka_unit_test(test_lab_cli_read__wrong_number_of_operands__is_said),
-      cmocka_unit_test(test_lab_cli_read__help__lists_every_option),
-      cmocka_unit_test(test_lab_cli_read__version__names_program_and_library),
-      cmocka_unit_test(test_lab_progress_count__no_terminal_or_quiet__writes_nothing),
-      cmocka_unit_test(test_lab_progress_count__half_done__tells_time_to_go_and_clears),
-  };
-  return cmocka_run_group_tests_name("cli", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

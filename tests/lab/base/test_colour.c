@@ -45,7 +45,7 @@ static double dense(const lab_colour *c, const double *r, double *log_size)
   return sum;
 }
 
-static void test_lab_colour_whiten__any_colour_with_gaps__has_the_likelihood_of_a_dense_matrix(void **state)
+TEST(test_lab_colour_whiten__any_colour_with_gaps__has_the_likelihood_of_a_dense_matrix)
 {
   static const lab_colour colour[] = {{0.9, 0.5}, {0.6, 1}, {-0.5, 0.3}, {0.99, 0.1}, {0.2, 0.9}};
   uint64_t seed = 7;
@@ -66,7 +66,7 @@ static void test_lab_colour_whiten__any_colour_with_gaps__has_the_likelihood_of_
 }
 
 /* All of the noise has memory 0.6: r_i = (e_i - 0.6 e_(i-1))/0.8. */
-static void test_lab_colour_whiten__no_white_part__is_the_closed_form(void **state)
+TEST(test_lab_colour_whiten__no_white_part__is_the_closed_form)
 {
   const lab_colour c = {0.6, 1};
   double r[DENSE], white[DENSE];
@@ -81,7 +81,7 @@ static void test_lab_colour_whiten__no_white_part__is_the_closed_form(void **sta
 }
 
 /* Of a sample, by the definition. */
-static void test_lab_colour_second_difference__sample__is_its_mean_square(void **state)
+TEST(test_lab_colour_second_difference__sample__is_its_mean_square)
 {
   const lab_colour c = {0.7, 0.8};
   double sum = 0;
@@ -107,7 +107,7 @@ static lab_colour estimate(int rows, double *scale)
 
 /* Levels and trends of the stretches, and gaps, do not matter. Bounds: four standard errors of the correlation from row
  * to row, 1/sqrt(N), and of the deviation of values of which one in (1 + m)/(1 - m) is independent. */
-static void test_lab_colour_estimate__known_colour__is_found(void **state)
+TEST(test_lab_colour_estimate__known_colour__is_found)
 {
   static const lab_colour colour[] = {{0.6, 1}, {0.9, 0.5}, {0.9, 1}, {0.95, 0.3}, {-0.5, 1}};
   int k, i;
@@ -125,7 +125,7 @@ static void test_lab_colour_estimate__known_colour__is_found(void **state)
   }
 }
 
-static void test_lab_colour_estimate__white_noise__has_no_memory(void **state)
+TEST(test_lab_colour_estimate__white_noise__has_no_memory)
 {
   int seed;
   for (seed = 1; seed <= 30; seed++) {
@@ -137,7 +137,7 @@ static void test_lab_colour_estimate__white_noise__has_no_memory(void **state)
 }
 
 /* A swing is no noise: it does not get whiter by a memory of one row. */
-static void test_lab_colour_estimate__swing__is_no_colour(void **state)
+TEST(test_lab_colour_estimate__swing__is_no_colour)
 {
   double scale = 3;
   int i;
@@ -147,7 +147,7 @@ static void test_lab_colour_estimate__swing__is_no_colour(void **state)
   assert_close(estimate(400, &scale).memory, 0, 0, 0);
 }
 
-static void test_lab_colour_estimate__stretch_in_which_something_moves__does_not_count(void **state)
+TEST(test_lab_colour_estimate__stretch_in_which_something_moves__does_not_count)
 {
   double scale = 0;
   int i;
@@ -159,7 +159,7 @@ static void test_lab_colour_estimate__stretch_in_which_something_moves__does_not
 }
 
 /* The whole memory is longer than an eighth of a stretch. */
-static void test_lab_colour_estimate__short_stretches__tell_a_long_memory(void **state)
+TEST(test_lab_colour_estimate__short_stretches__tell_a_long_memory)
 {
   int seed;
   for (seed = 1; seed <= 10; seed++) {
@@ -173,7 +173,7 @@ static void test_lab_colour_estimate__short_stretches__tell_a_long_memory(void *
 
 /* What a model lacks comes to rest after each move of the stem, the one way after a stroke up and the other after one
  * down. */
-static void test_lab_colour_estimate__what_settles_in_every_stretch__is_no_colour(void **state)
+TEST(test_lab_colour_estimate__what_settles_in_every_stretch__is_no_colour)
 {
   double scale = 3, size;
   int rows, i, seed;
@@ -189,7 +189,7 @@ static void test_lab_colour_estimate__what_settles_in_every_stretch__is_no_colou
 }
 
 /* A stem that arrives later than its model. */
-static void test_lab_colour_estimate__late_arrivals__are_no_colour(void **state)
+TEST(test_lab_colour_estimate__late_arrivals__are_no_colour)
 {
   double scale = 3;
   int rows = 80, i, seed;
@@ -204,7 +204,7 @@ static void test_lab_colour_estimate__late_arrivals__are_no_colour(void **state)
 }
 
 /* A stem that still moves about, to and fro, slower than an eighth of 400 rows. */
-static void test_lab_colour_estimate__memory_without_end__is_no_colour(void **state)
+TEST(test_lab_colour_estimate__memory_without_end__is_no_colour)
 {
   double scale = 3;
   int seed, i;
@@ -222,7 +222,7 @@ static void test_lab_colour_estimate__memory_without_end__is_no_colour(void **st
   }
 }
 
-static void test_lab_colour_estimate__few_values__says_nothing(void **state)
+TEST(test_lab_colour_estimate__few_values__says_nothing)
 {
   lab_stretch rest = {y, 99};
   lab_colour c;
@@ -239,19 +239,5 @@ static void test_lab_colour_estimate__few_values__says_nothing(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_colour_whiten__any_colour_with_gaps__has_the_likelihood_of_a_dense_matrix),
-      cmocka_unit_test(test_lab_colour_whiten__no_white_part__is_the_closed_form),
-      cmocka_unit_test(test_lab_colour_second_difference__sample__is_its_mean_square),
-      cmocka_unit_test(test_lab_colour_estimate__known_colour__is_found),
-      cmocka_unit_test(test_lab_colour_estimate__white_noise__has_no_memory),
-      cmocka_unit_test(test_lab_colour_estimate__short_stretches__tell_a_long_memory),
-      cmocka_unit_test(test_lab_colour_estimate__what_settles_in_every_stretch__is_no_colour),
-      cmocka_unit_test(test_lab_colour_estimate__late_arrivals__are_no_colour),
-      cmocka_unit_test(test_lab_colour_estimate__memory_without_end__is_no_colour),
-      cmocka_unit_test(test_lab_colour_estimate__swing__is_no_colour),
-      cmocka_unit_test(test_lab_colour_estimate__stretch_in_which_something_moves__does_not_count),
-      cmocka_unit_test(test_lab_colour_estimate__few_values__says_nothing),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

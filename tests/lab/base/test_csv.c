@@ -34,7 +34,7 @@ static void assert_no_more(void)
   assert_false(more);
 }
 
-static void test_lab_csv_cut__cells__are_as_rfc_4180_says(void **state)
+TEST(test_lab_csv_cut__cells__are_as_rfc_4180_says)
 {
   static const struct {
     const char *line;
@@ -69,7 +69,7 @@ static void test_lab_csv_cut__cells__are_as_rfc_4180_says(void **state)
   }
 }
 
-static void test_lab_csv_cut__quote_that_does_not_end__is_refused_with_its_line(void **state)
+TEST(test_lab_csv_cut__quote_that_does_not_end__is_refused_with_its_line)
 {
   static const char *const bad[] = {"\"b\nc\"\n", "x,\"b\"\"\n", "\"", " \"b"};
   size_t i;
@@ -87,7 +87,7 @@ static void test_lab_csv_cut__quote_that_does_not_end__is_refused_with_its_line(
   }
 }
 
-static void test_lab_csv_line__comments_and_ends_of_lines__count_as_lines(void **state)
+TEST(test_lab_csv_line__comments_and_ends_of_lines__count_as_lines)
 {
   open_text("\xEF\xBB\xBF# one\r\na,b\r\n#\n\n # c");
   csv.comment = '#';
@@ -105,7 +105,7 @@ static void test_lab_csv_line__comments_and_ends_of_lines__count_as_lines(void *
   lab_csv_close(&csv);
 }
 
-static void test_lab_csv_restart__rows_that_were_cut__come_again(void **state)
+TEST(test_lab_csv_restart__rows_that_were_cut__come_again)
 {
   int i;
   open_text("\"a,\"\"\",b\nc,d\n");
@@ -121,7 +121,7 @@ static void test_lab_csv_restart__rows_that_were_cut__come_again(void **state)
   lab_csv_close(&csv);
 }
 
-static void test_lab_csv_is_over__blank_lines_to_the_end__are_nothing(void **state)
+TEST(test_lab_csv_is_over__blank_lines_to_the_end__are_nothing)
 {
   int more;
   open_text("\na\n \n\t\r\n");
@@ -134,7 +134,7 @@ static void test_lab_csv_is_over__blank_lines_to_the_end__are_nothing(void **sta
   lab_csv_close(&csv);
 }
 
-static void test_lab_csv_cut__many_cells__are_counted(void **state)
+TEST(test_lab_csv_cut__many_cells__are_counted)
 {
   char text[3 * LAB_CSV_CELLS] = "y";
   int i;
@@ -146,7 +146,7 @@ static void test_lab_csv_cut__many_cells__are_counted(void **state)
   lab_csv_close(&csv);
 }
 
-static void test_lab_csv_line__as_long_as_may_be_and_longer__is_told_apart(void **state)
+TEST(test_lab_csv_line__as_long_as_may_be_and_longer__is_told_apart)
 {
   char *text = malloc(LAB_CSV_LINE + 4);
   int more;
@@ -167,14 +167,5 @@ static void test_lab_csv_line__as_long_as_may_be_and_longer__is_told_apart(void 
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_csv_cut__cells__are_as_rfc_4180_says),
-      cmocka_unit_test(test_lab_csv_cut__quote_that_does_not_end__is_refused_with_its_line),
-      cmocka_unit_test(test_lab_csv_line__comments_and_ends_of_lines__count_as_lines),
-      cmocka_unit_test(test_lab_csv_restart__rows_that_were_cut__come_again),
-      cmocka_unit_test(test_lab_csv_is_over__blank_lines_to_the_end__are_nothing),
-      cmocka_unit_test(test_lab_csv_cut__many_cells__are_counted),
-      cmocka_unit_test(test_lab_csv_line__as_long_as_may_be_and_longer__is_told_apart),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

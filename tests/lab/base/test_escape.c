@@ -100,7 +100,7 @@ static void for_each_name(void (*put)(FILE *, const char *), void (*look)(const 
 
 /* ---- Plain text ---- */
 
-static void test_lab_is_plain__utf8_without_control__is(void **state)
+TEST(test_lab_is_plain__utf8_without_control__is)
 {
   static const char *const plain[] = {"",
                                       "press 2",
@@ -122,7 +122,7 @@ static void test_lab_is_plain__utf8_without_control__is(void **state)
   }
 }
 
-static void test_lab_make_plain__any_name__is_plain_and_as_long(void **state)
+TEST(test_lab_make_plain__any_name__is_plain_and_as_long)
 {
   int i;
   for (i = 0; i < NAMES; i++) {
@@ -135,7 +135,7 @@ static void test_lab_make_plain__any_name__is_plain_and_as_long(void **state)
   }
 }
 
-static void test_lab_fail__any_name__makes_a_plain_message(void **state)
+TEST(test_lab_fail__any_name__makes_a_plain_message)
 {
   int i;
   for (i = 0; i < NAMES; i++) {
@@ -148,7 +148,7 @@ static void test_lab_fail__any_name__makes_a_plain_message(void **state)
 
 /* ---- Paths ---- */
 
-static void test_lab_make_file_name__any_name__is_one_part_of_a_path(void **state)
+TEST(test_lab_make_file_name__any_name__is_one_part_of_a_path)
 {
   int i;
   for (i = 0; i < NAMES; i++) {
@@ -174,7 +174,7 @@ static void look_at_html(const char *name, const char *text)
     assert_true((unsigned char)*at >= ' ' || *at == '\n' || *at == '\t');
 }
 
-static void test_lab_put_html__any_name__is_text(void **state)
+TEST(test_lab_put_html__any_name__is_text)
 {
   for_each_name(lab_put_html, look_at_html);
   assert_written(lab_put_html, "<b> & \"it's\"", "&lt;b&gt; &amp; &quot;it&#39;s&quot;");
@@ -189,7 +189,7 @@ static void look_at_address(const char *name, const char *text)
     assert_true(isalnum((unsigned char)*text) || strchr("-._~/%", *text));
 }
 
-static void test_lab_put_address__any_name__is_an_address(void **state)
+TEST(test_lab_put_address__any_name__is_an_address)
 {
   for_each_name(lab_put_address, look_at_address);
   assert_written(lab_put_address, "50 %/\xC3\xBC", "50%20%25/%C3%BC");
@@ -209,7 +209,7 @@ static void look_at_cell(const char *name, const char *text)
     assert_string_equal(cell[0].begin + (*cell[0].begin == '\''), name + (*name == '\''));
 }
 
-static void test_lab_put_users_cell__any_name__is_no_formula(void **state)
+TEST(test_lab_put_users_cell__any_name__is_no_formula)
 {
   for_each_name(lab_put_users_cell, look_at_cell);
   assert_written(lab_put_users_cell, "press 2", "press 2");
@@ -219,7 +219,7 @@ static void test_lab_put_users_cell__any_name__is_no_formula(void **state)
   assert_written(lab_put_users_cell, "-5 bar, \"cold\"", "\"'-5 bar, \"\"cold\"\"\"");
 }
 
-static void test_lab_put_cell__own_words__are_quoted_where_they_must(void **state)
+TEST(test_lab_put_cell__own_words__are_quoted_where_they_must)
 {
   assert_written(lab_put_cell, "-1.5 Pa", "-1.5 Pa");
   assert_written(lab_put_cell, "a,b", "\"a,b\"");
@@ -229,7 +229,7 @@ static void test_lab_put_cell__own_words__are_quoted_where_they_must(void **stat
 }
 
 /* The message of a line begins with the name of a file. */
-static void test_lab_row_error__file_named_as_a_formula__is_no_formula(void **state)
+TEST(test_lab_row_error__file_named_as_a_formula__is_no_formula)
 {
   lab_outcome outcome;
   lab_fail(&error, LAB_DATA, "=1+1.csv: there is no such file");
@@ -254,7 +254,7 @@ static void look_at_config(const char *name, const char *text)
   config_destroy(&config);
 }
 
-static void test_lab_put_config__any_name__comes_back(void **state)
+TEST(test_lab_put_config__any_name__comes_back)
 {
   for_each_name(lab_put_config, look_at_config);
 }
@@ -269,7 +269,7 @@ static void look_at_comment(const char *name, const char *text)
   assert_null(strpbrk(text, "\r\n"));
 }
 
-static void test_lab_put_comment__any_name__stays_in_the_comment(void **state)
+TEST(test_lab_put_comment__any_name__stays_in_the_comment)
 {
   for_each_name(lab_put_comment, look_at_comment);
 }
@@ -288,7 +288,7 @@ static char *document(cJSON *root)
   return text;
 }
 
-static void test_lab_json_write__any_name__comes_back_plain(void **state)
+TEST(test_lab_json_write__any_name__comes_back_plain)
 {
   int i;
   for (i = 0; i < NAMES; i++) {
@@ -306,7 +306,7 @@ static void test_lab_json_write__any_name__comes_back_plain(void **state)
   }
 }
 
-static void test_lab_json_write__numbers__have_nine_digits_or_are_null(void **state)
+TEST(test_lab_json_write__numbers__have_nine_digits_or_are_null)
 {
   const double number[] = {4.000000000000001e-05, 0.1 + 0.2, -123456789.123, 2.0 / 3.0, 1e-300, 5, NAN, -INFINITY};
   char *text = document(cJSON_CreateDoubleArray(number, sizeof number / sizeof *number));
@@ -317,7 +317,7 @@ static void test_lab_json_write__numbers__have_nine_digits_or_are_null(void **st
 /* ---- gnuplot ---- */
 
 /* A folder of each name has a table that is found and drawn; nothing is run. */
-static void test_lab_gnuplot_draw__folder_of_any_name__is_found(void **state)
+TEST(test_lab_gnuplot_draw__folder_of_any_name__is_found)
 {
   char here[1024];
   int i;
@@ -348,7 +348,7 @@ static void test_lab_gnuplot_draw__folder_of_any_name__is_found(void **state)
 
 /* ---- Rig files ---- */
 
-static void test_lab_rig_read__any_name__is_read_or_refused(void **state)
+TEST(test_lab_rig_read__any_name__is_read_or_refused)
 {
   int i;
   for (i = 0; i < NAMES; i++) {
@@ -368,7 +368,7 @@ static void test_lab_rig_read__any_name__is_read_or_refused(void **state)
 }
 
 /* A file's name may be anything; what a rig is called by it is not. */
-static void test_lab_rig_read__file_of_any_name__has_a_plain_one(void **state)
+TEST(test_lab_rig_read__file_of_any_name__has_a_plain_one)
 {
   int i;
   for (i = 0; i < NAMES; i++) {
@@ -386,23 +386,5 @@ static void test_lab_rig_read__file_of_any_name__has_a_plain_one(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_is_plain__utf8_without_control__is),
-      cmocka_unit_test(test_lab_make_plain__any_name__is_plain_and_as_long),
-      cmocka_unit_test(test_lab_fail__any_name__makes_a_plain_message),
-      cmocka_unit_test(test_lab_make_file_name__any_name__is_one_part_of_a_path),
-      cmocka_unit_test(test_lab_put_html__any_name__is_text),
-      cmocka_unit_test(test_lab_put_address__any_name__is_an_address),
-      cmocka_unit_test(test_lab_put_users_cell__any_name__is_no_formula),
-      cmocka_unit_test(test_lab_put_cell__own_words__are_quoted_where_they_must),
-      cmocka_unit_test(test_lab_row_error__file_named_as_a_formula__is_no_formula),
-      cmocka_unit_test(test_lab_put_config__any_name__comes_back),
-      cmocka_unit_test(test_lab_put_comment__any_name__stays_in_the_comment),
-      cmocka_unit_test(test_lab_json_write__any_name__comes_back_plain),
-      cmocka_unit_test(test_lab_json_write__numbers__have_nine_digits_or_are_null),
-      cmocka_unit_test(test_lab_gnuplot_draw__folder_of_any_name__is_found),
-      cmocka_unit_test(test_lab_rig_read__any_name__is_read_or_refused),
-      cmocka_unit_test(test_lab_rig_read__file_of_any_name__has_a_plain_one),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -8,7 +8,7 @@
 
 static char text[LAB_FORMAT_TEXT];
 
-static void test_lab_format_number__sizes__few_digits_and_powers_only_where_needed(void **state)
+TEST(test_lab_format_number__sizes__few_digits_and_powers_only_where_needed)
 {
   assert_string_equal(lab_format_number(0, 3, text), "0");
   assert_string_equal(lab_format_number(0.0136809, 4, text), "0.01368");
@@ -21,7 +21,7 @@ static void test_lab_format_number__sizes__few_digits_and_powers_only_where_need
   assert_string_equal(lab_format_number(HUGE_VAL, 3, text), "-");
 }
 
-static void test_lab_format_quantity__units__as_engineers_write_them(void **state)
+TEST(test_lab_format_quantity__units__as_engineers_write_them)
 {
   assert_string_equal(lab_format_quantity(5591.45, "Pa", 3, text), "5.59 kPa");
   assert_string_equal(lab_format_quantity(1.98879e-5, "m", 3, text), "0.0199 mm");
@@ -30,7 +30,7 @@ static void test_lab_format_quantity__units__as_engineers_write_them(void **stat
   assert_string_equal(lab_format_quantity(298.15, "K", 4, text), "298.1 K");
 }
 
-static void test_lab_format_brief__sizes__no_zeros_at_the_end(void **state)
+TEST(test_lab_format_brief__sizes__no_zeros_at_the_end)
 {
   assert_string_equal(lab_format_brief(398200, "Pa", text), "398.2 kPa");
   assert_string_equal(lab_format_brief(0.02, "m", text), "20 mm");
@@ -60,7 +60,7 @@ static void assert_scale(const char *unit)
   assert_close(shown.scale, scale, 0, 1e-12);
 }
 
-static void test_lab_format_as__every_unit_of_the_library__has_the_right_scale(void **state)
+TEST(test_lab_format_as__every_unit_of_the_library__has_the_right_scale)
 {
   int i;
   for (i = 0; i < PNEU_PARAM_COUNT; i++) {
@@ -73,7 +73,7 @@ static void test_lab_format_as__every_unit_of_the_library__has_the_right_scale(v
     assert_scale(lab_channels[i].unit);
 }
 
-static void test_lab_format_p__small__is_said_to_be_small(void **state)
+TEST(test_lab_format_p__small__is_said_to_be_small)
 {
   assert_string_equal(lab_format_p(0, text), "below 1e-300");
   assert_string_equal(lab_format_p(0.1449, text), "0.14");
@@ -82,12 +82,5 @@ static void test_lab_format_p__small__is_said_to_be_small(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_format_number__sizes__few_digits_and_powers_only_where_needed),
-      cmocka_unit_test(test_lab_format_quantity__units__as_engineers_write_them),
-      cmocka_unit_test(test_lab_format_brief__sizes__no_zeros_at_the_end),
-      cmocka_unit_test(test_lab_format_as__every_unit_of_the_library__has_the_right_scale),
-      cmocka_unit_test(test_lab_format_p__small__is_said_to_be_small),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

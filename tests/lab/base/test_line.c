@@ -19,7 +19,7 @@ static lab_line line_of(const double (*point)[3], int n)
 /* Weights 1, 4, 1 and 4 about the mean 20001.5, where the days of a date are: sums by hand. */
 static const double weighted[][3] = {{20000, 2, 1}, {20001, 3, 0.5}, {20002, 3, 1}, {20003, 4, 0.5}};
 
-static void test_lab_line__weights__closed_form(void **state)
+TEST(test_lab_line__weights__closed_form)
 {
   const lab_line line = line_of(weighted, 4);
   /* sums of w, w x, w y about 20000 and 3: 10, 18, 3; xx = 44 - 32.4 = 11.6; xy = 12 - 5.4 = 6.6 */
@@ -33,7 +33,7 @@ static void test_lab_line__weights__closed_form(void **state)
 }
 
 /* Values on the line: their deviations alone count; ten times further off than these: the scatter does. */
-static void test_lab_line__scatter__widens_the_interval_only_beyond_the_deviations(void **state)
+TEST(test_lab_line__scatter__widens_the_interval_only_beyond_the_deviations)
 {
   const double on[][3] = {{0, 1, 0.1}, {1, 2, 0.1}, {2, 3, 0.1}};
   const double off[][3] = {{0, 1, 0.1}, {1, 5, 0.1}, {2, 3, 0.1}};
@@ -43,7 +43,7 @@ static void test_lab_line__scatter__widens_the_interval_only_beyond_the_deviatio
   assert_close(lab_line_half(&large, 0.05), 12.706204736432095 * sqrt(6) / sqrt(2), 0, 1e-9);
 }
 
-static void test_lab_line__two_points__show_no_scatter(void **state)
+TEST(test_lab_line__two_points__show_no_scatter)
 {
   const double two[][3] = {{10, 1, 0.3}, {20, 2, 0.4}};
   const lab_line line = line_of(two, 2);
@@ -52,7 +52,7 @@ static void test_lab_line__two_points__show_no_scatter(void **state)
   assert_close(lab_line_scatter(&line), 0, 0, 1e-12);
 }
 
-static void test_lab_line__one_place__has_no_slope(void **state)
+TEST(test_lab_line__one_place__has_no_slope)
 {
   const double one[][3] = {{20000.3, 1, 1}, {20000.3, 2, 0.7}, {20000.3, 4, 0.1}};
   const lab_line line = line_of(one, 3);
@@ -60,7 +60,7 @@ static void test_lab_line__one_place__has_no_slope(void **state)
 }
 
 /* At the ends, the value lies on the edge of the band about the line; where the slope may be 0, there is no end. */
-static void test_lab_line__reaches__ends_where_the_band_does(void **state)
+TEST(test_lab_line__reaches__ends_where_the_band_does)
 {
   const lab_line line = line_of(weighted, 4);
   double at[3];
@@ -76,7 +76,7 @@ static void test_lab_line__reaches__ends_where_the_band_does(void **state)
 }
 
 /* Deviations that tell all, and such that tell a third: in either case 95 of 100 intervals hold. */
-static void test_lab_line__half__holds_as_often_as_it_says(void **state)
+TEST(test_lab_line__half__holds_as_often_as_it_says)
 {
   enum { TRIALS = 4000, POINTS = 5 };
   static const double truth[] = {1, 3};
@@ -97,13 +97,5 @@ static void test_lab_line__half__holds_as_often_as_it_says(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_line__weights__closed_form),
-      cmocka_unit_test(test_lab_line__scatter__widens_the_interval_only_beyond_the_deviations),
-      cmocka_unit_test(test_lab_line__two_points__show_no_scatter),
-      cmocka_unit_test(test_lab_line__one_place__has_no_slope),
-      cmocka_unit_test(test_lab_line__reaches__ends_where_the_band_does),
-      cmocka_unit_test(test_lab_line__half__holds_as_often_as_it_says),
-  };
-  return cmocka_run_group_tests_name("line", tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -25,7 +25,7 @@ static void fill_white(double sigma, uint64_t seed)
 /* ---- Estimate ---- */
 
 /* A median of 4000 sizes is known to about 2 %; second differences of neighbours are not independent: 5 %. */
-static void test_lab_noise_estimate__white_noise__is_its_deviation(void **state)
+TEST(test_lab_noise_estimate__white_noise__is_its_deviation)
 {
   static const double sigma[] = {1e-6, 0.5, 3e5};
   int k;
@@ -36,7 +36,7 @@ static void test_lab_noise_estimate__white_noise__is_its_deviation(void **state)
   }
 }
 
-static void test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviation(void **state)
+TEST(test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviation)
 {
   int i;
   fill_white(0.5, 8);
@@ -45,7 +45,7 @@ static void test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviati
   assert_close(noise_of(y, N), 0.5, 0, 0.05);
 }
 
-static void test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_disturb_it(void **state)
+TEST(test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_disturb_it)
 {
   int i;
   fill_white(1, 4);
@@ -55,7 +55,7 @@ static void test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_dist
 }
 
 /* Alternating signs: every second difference is 4 a, sigma sqrt(6) z of the median. */
-static void test_lab_noise_estimate__alternating_values__are_the_closed_form(void **state)
+TEST(test_lab_noise_estimate__alternating_values__are_the_closed_form)
 {
   int i;
   for (i = 0; i < N; i++)
@@ -63,7 +63,7 @@ static void test_lab_noise_estimate__alternating_values__are_the_closed_form(voi
   assert_close(noise_of(y, N), 4 * 3 / (sqrt(6) * 0.67448975019608171), 0, 1e-12);
 }
 
-static void test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step(void **state)
+TEST(test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step)
 {
   int i;
   for (i = 0; i < N; i++)
@@ -72,7 +72,7 @@ static void test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step(voi
 }
 
 /* Noise far below a step of the converter shows as steps now and then, and their size sets the least estimate. */
-static void test_lab_noise_estimate__steps_larger_than_noise__is_a_quarter_of_a_step(void **state)
+TEST(test_lab_noise_estimate__steps_larger_than_noise__is_a_quarter_of_a_step)
 {
   const double step = 2;
   int i;
@@ -83,7 +83,7 @@ static void test_lab_noise_estimate__steps_larger_than_noise__is_a_quarter_of_a_
 }
 
 /* Steps finer than the noise change it by little: sigma^2 + step^2/12. */
-static void test_lab_noise_estimate__steps_smaller_than_noise__change_it_by_little(void **state)
+TEST(test_lab_noise_estimate__steps_smaller_than_noise__change_it_by_little)
 {
   const double step = 0.25;
   int i;
@@ -94,7 +94,7 @@ static void test_lab_noise_estimate__steps_smaller_than_noise__change_it_by_litt
 }
 
 /* Steps of about the size of the noise, where a median of whole steps would be off by a third. */
-static void test_lab_noise_estimate__steps_as_large_as_noise__add_their_own(void **state)
+TEST(test_lab_noise_estimate__steps_as_large_as_noise__add_their_own)
 {
   static const double step[] = {0.7, 1, 1.5, 2};
   int i, k;
@@ -107,7 +107,7 @@ static void test_lab_noise_estimate__steps_as_large_as_noise__add_their_own(void
   }
 }
 
-static void test_lab_noise_estimate__gaps__do_not_count(void **state)
+TEST(test_lab_noise_estimate__gaps__do_not_count)
 {
   int i;
   fill_white(0.5, 7);
@@ -120,7 +120,7 @@ static void test_lab_noise_estimate__gaps__do_not_count(void **state)
   assert_true(isnan(noise_of(y, N))); /* no three values in a row */
 }
 
-static void test_lab_noise_estimate__fewer_than_eight_differences__says_nothing(void **state)
+TEST(test_lab_noise_estimate__fewer_than_eight_differences__says_nothing)
 {
   static const double ten[] = {1, -1, 1, -1, 1, -1, 1, -1, 1, -1};
   double gap[10];
@@ -133,7 +133,7 @@ static void test_lab_noise_estimate__fewer_than_eight_differences__says_nothing(
   assert_true(isnan(noise_of(gap, 10)));
 }
 
-static void test_lab_noise_estimate__one_value_for_ever__is_none(void **state)
+TEST(test_lab_noise_estimate__one_value_for_ever__is_none)
 {
   int i;
   for (i = 0; i < N; i++)
@@ -143,20 +143,20 @@ static void test_lab_noise_estimate__one_value_for_ever__is_none(void **state)
 
 /* ---- Smallest step ---- */
 
-static void test_lab_smallest_step__values_on_a_grid__is_its_step(void **state)
+TEST(test_lab_smallest_step__values_on_a_grid__is_its_step)
 {
   static const double grid[] = {0, 7.5, 5, 5, 2.5, 10, -10};
   assert_close(lab_smallest_step(grid, 7), 2.5, 0, 0);
   assert_close(lab_smallest_step(grid, 2), 7.5, 0, 0);
 }
 
-static void test_lab_smallest_step__gaps__are_no_steps(void **state)
+TEST(test_lab_smallest_step__gaps__are_no_steps)
 {
   static const double gap[] = {0, 3, NAN, 4, 8, NAN};
   assert_close(lab_smallest_step(gap, 6), 3, 0, 0);
 }
 
-static void test_lab_smallest_step__nothing_changes__is_none(void **state)
+TEST(test_lab_smallest_step__nothing_changes__is_none)
 {
   static const double same[] = {4, 4, 4}, none[] = {NAN, NAN, 1};
   assert_close(lab_smallest_step(same, 3), 0, 0, 0);
@@ -166,7 +166,7 @@ static void test_lab_smallest_step__nothing_changes__is_none(void **state)
 }
 
 /* Written to five digits, so that a step is off by up to one in the last; noise of a step. */
-static void test_lab_resolution__converter__is_its_step(void **state)
+TEST(test_lab_resolution__converter__is_its_step)
 {
   uint64_t seed = 3;
   int i;
@@ -176,7 +176,7 @@ static void test_lab_resolution__converter__is_its_step(void **state)
   assert_close(lab_resolution(y, N), 0.0305176, 1e-5, 0);
 }
 
-static void test_lab_resolution__smooth_or_without_steps__is_none(void **state)
+TEST(test_lab_resolution__smooth_or_without_steps__is_none)
 {
   int i;
   fill_white(1, 4);
@@ -188,23 +188,5 @@ static void test_lab_resolution__smooth_or_without_steps__is_none(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_noise_estimate__white_noise__is_its_deviation),
-      cmocka_unit_test(test_lab_noise_estimate__noise_on_a_ramp_with_a_jump__is_its_deviation),
-      cmocka_unit_test(test_lab_noise_estimate__stroke_in_a_tenth_of_the_log__does_not_disturb_it),
-      cmocka_unit_test(test_lab_noise_estimate__alternating_values__are_the_closed_form),
-      cmocka_unit_test(test_lab_noise_estimate__straight_line__is_a_quarter_of_its_step),
-      cmocka_unit_test(test_lab_noise_estimate__steps_larger_than_noise__is_a_quarter_of_a_step),
-      cmocka_unit_test(test_lab_noise_estimate__steps_smaller_than_noise__change_it_by_little),
-      cmocka_unit_test(test_lab_noise_estimate__steps_as_large_as_noise__add_their_own),
-      cmocka_unit_test(test_lab_noise_estimate__gaps__do_not_count),
-      cmocka_unit_test(test_lab_noise_estimate__fewer_than_eight_differences__says_nothing),
-      cmocka_unit_test(test_lab_noise_estimate__one_value_for_ever__is_none),
-      cmocka_unit_test(test_lab_smallest_step__values_on_a_grid__is_its_step),
-      cmocka_unit_test(test_lab_smallest_step__gaps__are_no_steps),
-      cmocka_unit_test(test_lab_smallest_step__nothing_changes__is_none),
-      cmocka_unit_test(test_lab_resolution__converter__is_its_step),
-      cmocka_unit_test(test_lab_resolution__smooth_or_without_steps__is_none),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

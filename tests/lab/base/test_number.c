@@ -18,7 +18,7 @@ static void assert_reads(const char *text, char decimal, char thousands, double 
   assert_close(got, want, 0, 0);
 }
 
-static void test_lab_number_read__plain_numbers__are_exact(void **state)
+TEST(test_lab_number_read__plain_numbers__are_exact)
 {
   assert_reads("0", '.', 0, 0);
   assert_reads("-12.5", '.', 0, -12.5);
@@ -31,7 +31,7 @@ static void test_lab_number_read__plain_numbers__are_exact(void **state)
   assert_reads("1.2732e-313", '.', 0, 1.2732e-313);
 }
 
-static void test_lab_number_read__random_numbers__equal_strtod(void **state)
+TEST(test_lab_number_read__random_numbers__equal_strtod)
 {
   uint64_t seed = 88172645463325252u;
   int i;
@@ -46,25 +46,25 @@ static void test_lab_number_read__random_numbers__equal_strtod(void **state)
   }
 }
 
-static void test_lab_number_read__decimal_comma__is_a_point(void **state)
+TEST(test_lab_number_read__decimal_comma__is_a_point)
 {
   assert_reads("1,25", ',', 0, 1.25);
   assert_reads("-1,25e2", ',', 0, -125);
 }
 
-static void test_lab_number_read__thousands_marks__are_left_out(void **state)
+TEST(test_lab_number_read__thousands_marks__are_left_out)
 {
   assert_reads("1.234,5", ',', '.', 1234.5);
   assert_reads("1'234'567.5", '.', '\'', 1234567.5);
 }
 
-static void test_lab_number_read__thousands_equal_decimal__keeps_the_last(void **state)
+TEST(test_lab_number_read__thousands_equal_decimal__keeps_the_last)
 {
   assert_reads("1.100.000", '.', '.', 1100);
   assert_reads("100.250", '.', '.', 100.25);
 }
 
-static void test_lab_number_read__nothing_or_nan__is_a_gap(void **state)
+TEST(test_lab_number_read__nothing_or_nan__is_a_gap)
 {
   const char *gaps[] = {"", "  ", "nan", "NaN", " NAN "};
   size_t i;
@@ -75,7 +75,7 @@ static void test_lab_number_read__nothing_or_nan__is_a_gap(void **state)
   }
 }
 
-static void test_lab_number_read__not_a_finite_decimal__is_bad(void **state)
+TEST(test_lab_number_read__not_a_finite_decimal__is_bad)
 {
   const char *bad[] = {"abc", "1.2.3", "1,5", "0x1A", "inf", "-inf",   "1e999",
                        "--1", "1 2",   "-",   ".",    "1e",  "nan(1)", "12kPa"};
@@ -87,7 +87,7 @@ static void test_lab_number_read__not_a_finite_decimal__is_bad(void **state)
   }
 }
 
-static void test_lab_number_read__very_long_field__is_bad(void **state)
+TEST(test_lab_number_read__very_long_field__is_bad)
 {
   char text[1000];
   double value;
@@ -96,7 +96,7 @@ static void test_lab_number_read__very_long_field__is_bad(void **state)
   assert_int_equal(read(text, '.', 0, &value), LAB_NUMBER_BAD);
 }
 
-static void test_lab_number_write__any_number__is_short_and_the_same(void **state)
+TEST(test_lab_number_write__any_number__is_short_and_the_same)
 {
   static const struct {
     double value;
@@ -115,16 +115,5 @@ static void test_lab_number_write__any_number__is_short_and_the_same(void **stat
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_number_read__plain_numbers__are_exact),
-      cmocka_unit_test(test_lab_number_read__random_numbers__equal_strtod),
-      cmocka_unit_test(test_lab_number_read__decimal_comma__is_a_point),
-      cmocka_unit_test(test_lab_number_read__thousands_marks__are_left_out),
-      cmocka_unit_test(test_lab_number_read__thousands_equal_decimal__keeps_the_last),
-      cmocka_unit_test(test_lab_number_read__nothing_or_nan__is_a_gap),
-      cmocka_unit_test(test_lab_number_read__not_a_finite_decimal__is_bad),
-      cmocka_unit_test(test_lab_number_read__very_long_field__is_bad),
-      cmocka_unit_test(test_lab_number_write__any_number__is_short_and_the_same),
-  };
-  return cmocka_run_group_tests_name("number", tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

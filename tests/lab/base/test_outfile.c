@@ -30,7 +30,7 @@ static int write_text(const char *file, const char *text)
   return lab_out_close(&out, &error);
 }
 
-static void test_lab_out_close__good_disk__puts_the_file_in_place(void **state)
+TEST(test_lab_out_close__good_disk__puts_the_file_in_place)
 {
   use(scratch_path("new.csv"));
   assert_int_equal(write_text(path, "whole\n"), LAB_OK);
@@ -38,7 +38,7 @@ static void test_lab_out_close__good_disk__puts_the_file_in_place(void **state)
   assert_false(scratch_exists(part));
 }
 
-static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
+TEST(test_lab_out_open__while_writing__leaves_the_old_file)
 {
   use(scratch_text("old.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
@@ -49,7 +49,7 @@ static void test_lab_out_open__while_writing__leaves_the_old_file(void **state)
   assert_content(path, "new\n");
 }
 
-static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void **state)
+TEST(test_lab_out_abandon__half_written__leaves_the_old_file_alone)
 {
   use(scratch_text("kept.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
@@ -60,7 +60,7 @@ static void test_lab_out_abandon__half_written__leaves_the_old_file_alone(void *
   assert_false(scratch_exists(part));
 }
 
-static void test_lab_out_end__status_of_who_wrote__decides(void **state)
+TEST(test_lab_out_end__status_of_who_wrote__decides)
 {
   use(scratch_text("ended.csv", "old\n"));
   assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
@@ -73,14 +73,14 @@ static void test_lab_out_end__status_of_who_wrote__decides(void **state)
   assert_content(path, "new\n");
 }
 
-static void test_lab_out_open__missing_folders__are_made(void **state)
+TEST(test_lab_out_open__missing_folders__are_made)
 {
   use(scratch_path("a/b/c.csv"));
   assert_int_equal(write_text(path, "x"), LAB_OK);
   assert_content(path, "x");
 }
 
-static void test_lab_out_open__name_without_folder__is_in_the_present_one(void **state)
+TEST(test_lab_out_open__name_without_folder__is_in_the_present_one)
 {
   char before[1024];
   assert_non_null(getcwd(before, sizeof before));
@@ -90,7 +90,7 @@ static void test_lab_out_open__name_without_folder__is_in_the_present_one(void *
   assert_int_equal(chdir(before), 0);
 }
 
-static void test_lab_out_open__file_on_the_way__is_the_worlds_fault(void **state)
+TEST(test_lab_out_open__file_on_the_way__is_the_worlds_fault)
 {
   scratch_text("plain", "x");
   use(scratch_path("plain/out.csv"));
@@ -101,13 +101,13 @@ static void test_lab_out_open__file_on_the_way__is_the_worlds_fault(void **state
   assert_contains(error.text, "cannot be made");
 }
 
-static void test_lab_out_open__folder_that_cannot_be_made__names_it(void **state)
+TEST(test_lab_out_open__folder_that_cannot_be_made__names_it)
 {
   assert_int_equal(write_text("/proc/none/out.csv", "x"), LAB_WORLD);
   assert_contains(error.text, "/proc/none: cannot be made");
 }
 
-static void test_lab_out_open__forbidden_folder__is_the_worlds_fault(void **state)
+TEST(test_lab_out_open__forbidden_folder__is_the_worlds_fault)
 {
   if (geteuid() == 0)
     skip();
@@ -117,7 +117,7 @@ static void test_lab_out_open__forbidden_folder__is_the_worlds_fault(void **stat
   assert_contains(error.text, "Permission denied");
 }
 
-static void test_lab_out_close__folder_in_its_place__leaves_no_part(void **state)
+TEST(test_lab_out_close__folder_in_its_place__leaves_no_part)
 {
   use(scratch_path("taken"));
   assert_int_equal(mkdir(path, 0777), 0);
@@ -126,7 +126,7 @@ static void test_lab_out_close__folder_in_its_place__leaves_no_part(void **state
   assert_false(scratch_exists(part));
 }
 
-static void test_lab_out_close__full_disk__is_the_worlds_fault(void **state)
+TEST(test_lab_out_close__full_disk__is_the_worlds_fault)
 {
   use(scratch_device("full", "/dev/full"));
   assert_int_equal(write_text(path, "x"), LAB_WORLD);
@@ -135,7 +135,7 @@ static void test_lab_out_close__full_disk__is_the_worlds_fault(void **state)
   assert_false(scratch_exists(part));
 }
 
-static void test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault(void **state)
+TEST(test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault)
 {
   int i;
   assert_int_equal(lab_out_open(&out, scratch_device("full", "/dev/full"), &error), LAB_OK);
@@ -145,7 +145,7 @@ static void test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault(voi
   assert_contains(error.text, "full: cannot be written: No space left on device");
 }
 
-static void test_lab_out_close__device__is_written_in_place(void **state)
+TEST(test_lab_out_close__device__is_written_in_place)
 {
   use(scratch_device("null", "/dev/null"));
   assert_int_equal(write_text(path, "x"), LAB_OK);
@@ -153,7 +153,7 @@ static void test_lab_out_close__device__is_written_in_place(void **state)
   assert_false(scratch_exists(part));
 }
 
-static void test_lab_out_open__no_path__is_standard_output(void **state)
+TEST(test_lab_out_open__no_path__is_standard_output)
 {
   assert_int_equal(lab_out_open(&out, NULL, &error), LAB_OK);
   assert_ptr_equal(out.file, stdout);
@@ -163,7 +163,7 @@ static void test_lab_out_open__no_path__is_standard_output(void **state)
   lab_out_abandon(&out);
 }
 
-static void test_lab_make_folder__nested_or_there__is_made(void **state)
+TEST(test_lab_make_folder__nested_or_there__is_made)
 {
   use(scratch_path("x/y/z/"));
   assert_int_equal(lab_make_folder(path, &error), LAB_OK);
@@ -172,30 +172,12 @@ static void test_lab_make_folder__nested_or_there__is_made(void **state)
   assert_int_equal(lab_make_folder("/", &error), LAB_OK);
 }
 
-static void test_lab_make_folder__file_of_that_name__is_refused(void **state)
+TEST(test_lab_make_folder__file_of_that_name__is_refused)
 {
   assert_int_equal(lab_make_folder(scratch_text("a_file", "x"), &error), LAB_WORLD);
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_out_close__good_disk__puts_the_file_in_place),
-      cmocka_unit_test(test_lab_out_open__while_writing__leaves_the_old_file),
-      cmocka_unit_test(test_lab_out_abandon__half_written__leaves_the_old_file_alone),
-      cmocka_unit_test(test_lab_out_end__status_of_who_wrote__decides),
-      cmocka_unit_test(test_lab_out_open__missing_folders__are_made),
-      cmocka_unit_test(test_lab_out_open__name_without_folder__is_in_the_present_one),
-      cmocka_unit_test(test_lab_out_open__file_on_the_way__is_the_worlds_fault),
-      cmocka_unit_test(test_lab_out_open__folder_that_cannot_be_made__names_it),
-      cmocka_unit_test(test_lab_out_open__forbidden_folder__is_the_worlds_fault),
-      cmocka_unit_test(test_lab_out_close__folder_in_its_place__leaves_no_part),
-      cmocka_unit_test(test_lab_out_close__full_disk__is_the_worlds_fault),
-      cmocka_unit_test(test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault),
-      cmocka_unit_test(test_lab_out_close__device__is_written_in_place),
-      cmocka_unit_test(test_lab_out_open__no_path__is_standard_output),
-      cmocka_unit_test(test_lab_make_folder__nested_or_there__is_made),
-      cmocka_unit_test(test_lab_make_folder__file_of_that_name__is_refused),
-  };
-  return cmocka_run_group_tests_name("outfile", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -27,7 +27,7 @@ static void assert_filled(const char *template, const char *values, const char *
   free(got);
 }
 
-static void test_lab_template_write__text__is_escaped_unless_asked(void **state)
+TEST(test_lab_template_write__text__is_escaped_unless_asked)
 {
   const char values[] = "{\"a\": \"<b> & \\\"it's\\\"\"}";
   assert_filled("[{{a}}]", values, "[&lt;b&gt; &amp; &quot;it&#39;s&quot;]");
@@ -36,7 +36,7 @@ static void test_lab_template_write__text__is_escaped_unless_asked(void **state)
   assert_filled("css { a { b } }", values, "css { a { b } }");
 }
 
-static void test_lab_template_write__sections__repeat_and_vanish(void **state)
+TEST(test_lab_template_write__sections__repeat_and_vanish)
 {
   assert_filled("{{#l}}<{{a}}{{b}}>{{/l}}.", "{\"b\": \"x\", \"l\": [{\"a\": \"1\"}, {\"a\": \"2\", \"b\": \"y\"}]}",
                 "<1x><2y>.");
@@ -48,7 +48,7 @@ static void test_lab_template_write__sections__repeat_and_vanish(void **state)
   assert_filled("{{#l}}\n{{.}}\n{{/l}}\nend\n", "{\"l\": [\"1\", \"2\"]}", "1\n2\nend\n");
 }
 
-static void test_lab_template_write__open_tags__are_errors(void **state)
+TEST(test_lab_template_write__open_tags__are_errors)
 {
   static const char *const bad[] = {"{{a", "{{#a}} x", "{{#a}}{{/b}}", "{{/a}}", "{{{a}}"};
   cJSON *object = cJSON_Parse("{\"a\": \"x\"}");
@@ -62,7 +62,7 @@ static void test_lab_template_write__open_tags__are_errors(void **state)
   cJSON_Delete(object);
 }
 
-static void test_lab_page_join__items_shown_one_behind_the_other__have_it_between(void **state)
+TEST(test_lab_page_join__items_shown_one_behind_the_other__have_it_between)
 {
   const char *const pieces[] = {"<{{#l}}", "{{{.}}}", "{{/l}}>", NULL};
   char *template = lab_template_text(pieces), *values;
@@ -77,7 +77,7 @@ static void test_lab_page_join__items_shown_one_behind_the_other__have_it_betwee
 }
 
 /* Under a list that is not there nothing is made, so that nothing is lost. */
-static void test_lab_page_append__no_list__nothing(void **state)
+TEST(test_lab_page_append__no_list__nothing)
 {
   assert_null(lab_json_append(NULL));
   lab_json_put(NULL, "a", "%d", 1);
@@ -86,12 +86,5 @@ static void test_lab_page_append__no_list__nothing(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_template_write__text__is_escaped_unless_asked),
-      cmocka_unit_test(test_lab_template_write__sections__repeat_and_vanish),
-      cmocka_unit_test(test_lab_template_write__open_tags__are_errors),
-      cmocka_unit_test(test_lab_page_join__items_shown_one_behind_the_other__have_it_between),
-      cmocka_unit_test(test_lab_page_append__no_list__nothing),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -45,7 +45,7 @@ static void assert_refused(const char *path, const char *words)
   assert_true(lab_checksum_file(LAB_CHECKSUM_SEED, path) == LAB_CHECKSUM_SEED);
 }
 
-static void test_lab_text_open__no_file_on_a_disk__is_refused(void **state)
+TEST(test_lab_text_open__no_file_on_a_disk__is_refused)
 {
   alarm(60);
   assert_refused(pipe_file(), "this is a pipe or a device");
@@ -55,13 +55,13 @@ static void test_lab_text_open__no_file_on_a_disk__is_refused(void **state)
   alarm(0);
 }
 
-static void test_lab_text_open__too_large__is_refused(void **state)
+TEST(test_lab_text_open__too_large__is_refused)
 {
   assert_refused(sparse_file("large", (off_t)2 << 30), "expected at most 512 MB, found 2048");
 }
 
 /* Nothing is read behind the first byte that is no text. */
-static void test_lab_text_read__as_large_as_may_be_and_empty__ends_soon(void **state)
+TEST(test_lab_text_read__as_large_as_may_be_and_empty__ends_soon)
 {
   const char *path = sparse_file("sparse", LAB_TEXT_MAX);
   const clock_t start = clock();
@@ -71,7 +71,7 @@ static void test_lab_text_read__as_large_as_may_be_and_empty__ends_soon(void **s
   assert_true((double)(clock() - start) / CLOCKS_PER_SEC < 0.2);
 }
 
-static void test_lab_text_read__lines_that_end_in_cr_alone__are_lines(void **state)
+TEST(test_lab_text_read__lines_that_end_in_cr_alone__are_lines)
 {
   lab_text text;
   assert_int_equal(lab_text_read(scratch_text("mac.csv", "t [s],x [mm]\r0,1\r"), &text, &error), LAB_OK);
@@ -82,7 +82,7 @@ static void test_lab_text_read__lines_that_end_in_cr_alone__are_lines(void **sta
   lab_text_free(&text);
 }
 
-static void test_lab_log_read__a_thousand_columns__are_refused(void **state)
+TEST(test_lab_log_read__a_thousand_columns__are_refused)
 {
   static char text[1000 * 8 + 2];
   lab_log_format format;
@@ -95,7 +95,7 @@ static void test_lab_log_read__a_thousand_columns__are_refused(void **state)
   assert_contains(error.text, "expected at most 64 columns");
 }
 
-static void test_lab_append__more_than_fits__is_cut(void **state)
+TEST(test_lab_append__more_than_fits__is_cut)
 {
   char text[8] = "ab";
   lab_append(text, sizeof text, "%s", ", cd");
@@ -106,13 +106,5 @@ static void test_lab_append__more_than_fits__is_cut(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_append__more_than_fits__is_cut),
-      cmocka_unit_test(test_lab_text_open__no_file_on_a_disk__is_refused),
-      cmocka_unit_test(test_lab_text_open__too_large__is_refused),
-      cmocka_unit_test(test_lab_text_read__as_large_as_may_be_and_empty__ends_soon),
-      cmocka_unit_test(test_lab_text_read__lines_that_end_in_cr_alone__are_lines),
-      cmocka_unit_test(test_lab_log_read__a_thousand_columns__are_refused),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

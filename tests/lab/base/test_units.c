@@ -21,7 +21,7 @@ static void assert_bad(const char *text, const char *unit, const char *part)
   assert_contains(error.text, part);
 }
 
-static void test_lab_quantity__units_of_rig_files__become_si(void **state)
+TEST(test_lab_quantity__units_of_rig_files__become_si)
 {
   assert_quantity("400 cm^2", "m2", 0.04);
   assert_quantity("500 N.s/m", "N.s/m", 500);
@@ -37,7 +37,7 @@ static void test_lab_quantity__units_of_rig_files__become_si(void **state)
 }
 
 /* As sheets write them: all pressures of a rig file are above ambient. */
-static void test_lab_quantity__words_of_sheets__are_read(void **state)
+TEST(test_lab_quantity__words_of_sheets__are_read)
 {
   assert_quantity("20 psig", "Pa", 20 * 6894.757293168361);
   assert_quantity("2.5 barg", "Pa", 250000);
@@ -50,7 +50,7 @@ static void test_lab_quantity__words_of_sheets__are_read(void **state)
 }
 
 /* What a person has written comes back as they would write it in SI; a number in SI, bit for bit. */
-static void test_lab_quantity__change_of_unit__adds_no_digits(void **state)
+TEST(test_lab_quantity__change_of_unit__adds_no_digits)
 {
   static const struct {
     const char *text, *unit;
@@ -68,34 +68,34 @@ static void test_lab_quantity__change_of_unit__adds_no_digits(void **state)
   }
 }
 
-static void test_lab_quantity__plain_number__is_si(void **state)
+TEST(test_lab_quantity__plain_number__is_si)
 {
   assert_quantity("0.04", "m2", 0.04);
   assert_quantity(" 12 ", "Pa", 12);
 }
 
-static void test_lab_quantity__percent_and_one__work(void **state)
+TEST(test_lab_quantity__percent_and_one__work)
 {
   assert_quantity("5 %", "1", 0.05);
   assert_quantity("5%", "1", 0.05);
   assert_quantity("0.3 1", "1", 0.3);
 }
 
-static void test_lab_quantity__temperature__has_its_offset(void **state)
+TEST(test_lab_quantity__temperature__has_its_offset)
 {
   assert_quantity("25 degC", "K", 298.15);
   assert_quantity("298.15 K", "K", 298.15);
   assert_quantity("77 degF", "K", 298.15);
 }
 
-static void test_lab_quantity_difference__temperature__has_no_offset(void **state)
+TEST(test_lab_quantity_difference__temperature__has_no_offset)
 {
   double got = NAN;
   assert_int_equal(lab_quantity_difference("0.5 degC", "K", &got, &error), LAB_OK);
   assert_close(got, 0.5, 1e-12, 0);
 }
 
-static void test_lab_quantity__unit_that_cannot_be_parsed__works_as_it_stands(void **state)
+TEST(test_lab_quantity__unit_that_cannot_be_parsed__works_as_it_stands)
 {
   assert_quantity("3.5 W/K^(4/3)", "W/K^(4/3)", 3.5);
   assert_quantity("3.5", "W/K^(4/3)", 3.5);
@@ -103,13 +103,13 @@ static void test_lab_quantity__unit_that_cannot_be_parsed__works_as_it_stands(vo
   assert_bad("3.5 kW/K^1.333", "W/K^1.333", "expected the unit W/K^1.333");
 }
 
-static void test_lab_quantity__wrong_dimension__names_found_and_expected(void **state)
+TEST(test_lab_quantity__wrong_dimension__names_found_and_expected)
 {
   assert_bad("5 kg", "m2", "expected a unit like m2 (m2), found \"kg\" (kg)");
   assert_bad("4 kN/m", "Pa", "kg.s-2");
 }
 
-static void test_lab_quantity__unknown_unit__is_named(void **state)
+TEST(test_lab_quantity__unknown_unit__is_named)
 {
   assert_bad("5 furlongs_per_fortnight", "m2", "furlongs_per_fortnight");
   assert_bad("5 furlongs_per_fortnight", "m2", "expected a unit like m2, found the unknown unit");
@@ -117,7 +117,7 @@ static void test_lab_quantity__unknown_unit__is_named(void **state)
   assert_bad("5 ,5 mm", "m", "unknown unit");
 }
 
-static void test_lab_quantity__no_finite_number__is_an_error(void **state)
+TEST(test_lab_quantity__no_finite_number__is_an_error)
 {
   assert_bad("", "m", "expected a number");
   assert_bad("mm", "m", "expected a number");
@@ -128,12 +128,12 @@ static void test_lab_quantity__no_finite_number__is_an_error(void **state)
   assert_bad("- 5 m", "m", "expected a number");
 }
 
-static void test_lab_quantity__logarithmic_unit__is_refused(void **state)
+TEST(test_lab_quantity__logarithmic_unit__is_refused)
 {
   assert_bad("3 lg(re 1 mW)", "W", "straight line");
 }
 
-static void test_lab_unit_factor__column_units__give_scale_and_offset(void **state)
+TEST(test_lab_unit_factor__column_units__give_scale_and_offset)
 {
   double scale, offset;
   assert_int_equal(lab_unit_factor("degC", "K", &scale, &offset, &error), LAB_OK);
@@ -149,20 +149,5 @@ static void test_lab_unit_factor__column_units__give_scale_and_offset(void **sta
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_quantity__units_of_rig_files__become_si),
-      cmocka_unit_test(test_lab_quantity__words_of_sheets__are_read),
-      cmocka_unit_test(test_lab_quantity__change_of_unit__adds_no_digits),
-      cmocka_unit_test(test_lab_quantity__plain_number__is_si),
-      cmocka_unit_test(test_lab_quantity__percent_and_one__work),
-      cmocka_unit_test(test_lab_quantity__temperature__has_its_offset),
-      cmocka_unit_test(test_lab_quantity_difference__temperature__has_no_offset),
-      cmocka_unit_test(test_lab_quantity__unit_that_cannot_be_parsed__works_as_it_stands),
-      cmocka_unit_test(test_lab_quantity__wrong_dimension__names_found_and_expected),
-      cmocka_unit_test(test_lab_quantity__unknown_unit__is_named),
-      cmocka_unit_test(test_lab_quantity__no_finite_number__is_an_error),
-      cmocka_unit_test(test_lab_quantity__logarithmic_unit__is_refused),
-      cmocka_unit_test(test_lab_unit_factor__column_units__give_scale_and_offset),
-  };
-  return cmocka_run_group_tests_name("units", tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

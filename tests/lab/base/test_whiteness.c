@@ -8,7 +8,7 @@ enum { ROWS = 400 };
 
 /* ---- chi-square ---- */
 
-static void test_lab_chi2_tail__one_two_four_degrees__closed_forms(void **state)
+TEST(test_lab_chi2_tail__one_two_four_degrees__closed_forms)
 {
   double x;
   for (x = 0; x < 60; x += 0.7) {
@@ -20,7 +20,7 @@ static void test_lab_chi2_tail__one_two_four_degrees__closed_forms(void **state)
 }
 
 /* Upper 5 % and 1 % points as tables print them: NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.4. */
-static void test_lab_chi2_tail__printed_points__their_probability(void **state)
+TEST(test_lab_chi2_tail__printed_points__their_probability)
 {
   static const struct {
     int degrees;
@@ -48,7 +48,7 @@ static double integrated_tail(double x, int degrees)
   return sum * h / 3;
 }
 
-static void test_lab_chi2_tail__many_degrees__the_integral_of_the_density(void **state)
+TEST(test_lab_chi2_tail__many_degrees__the_integral_of_the_density)
 {
   static const int degrees[] = {3, 7, 18, 37, 60};
   size_t i;
@@ -93,23 +93,23 @@ static double refused(double rho, int gaps, int draws)
 }
 
 /* 2000 draws: a standard deviation of 0.5 %; Q is chi-square to first order in lags/n, which is 7 %. */
-static void test_lab_whiteness_test__white__refused_at_its_rate(void **state)
+TEST(test_lab_whiteness_test__white__refused_at_its_rate)
 {
   assert_between(refused(0, 0, 2000), 0.035, 0.07);
 }
 
-static void test_lab_whiteness_test__white_with_gaps__refused_at_its_rate(void **state)
+TEST(test_lab_whiteness_test__white_with_gaps__refused_at_its_rate)
 {
   assert_between(refused(0, 1, 2000), 0.035, 0.07);
 }
 
-static void test_lab_whiteness_test__autoregressive__refused(void **state)
+TEST(test_lab_whiteness_test__autoregressive__refused)
 {
   assert_between(refused(0.4, 0, 200), 0.99, 1);
   assert_between(refused(0.4, 1, 200), 0.9, 1);
 }
 
-static void test_lab_whiteness_test__autoregressive__correlation_is_rho_to_the_lag(void **state)
+TEST(test_lab_whiteness_test__autoregressive__correlation_is_rho_to_the_lag)
 {
   enum { N = 40000 };
   static double r[N];
@@ -125,7 +125,7 @@ static void test_lab_whiteness_test__autoregressive__correlation_is_rho_to_the_l
   assert_close(w.deviation[1], 1 / sqrt(N), 0, 1e-3);
 }
 
-static void test_lab_whiteness_test__constant__is_not_white(void **state)
+TEST(test_lab_whiteness_test__constant__is_not_white)
 {
   static double r[ROWS];
   const lab_stretch stretch = {r, ROWS};
@@ -140,7 +140,7 @@ static void test_lab_whiteness_test__constant__is_not_white(void **state)
 }
 
 /* By hand: 1 -1 | 2 gap 1, two stretches. Pairs one apart: 1 * -1; nothing across the edge or the gap. */
-static void test_lab_whiteness_test__gap_and_edge__no_pair_across(void **state)
+TEST(test_lab_whiteness_test__gap_and_edge__no_pair_across)
 {
   const double first[] = {1, -1, 1, -1, 1, -1, 1, -1}, second[] = {2, (double)NAN, 1};
   const lab_stretch stretch[] = {{first, 8}, {second, 3}};
@@ -154,7 +154,7 @@ static void test_lab_whiteness_test__gap_and_edge__no_pair_across(void **state)
   assert_close(w.statistic, (49.0 / 7 + 64.0 / 7) / 169 * 120, 0, 1e-14);
 }
 
-static void test_lab_whiteness_test__too_few_values__says_nothing(void **state)
+TEST(test_lab_whiteness_test__too_few_values__says_nothing)
 {
   const double r[] = {1, 2, (double)NAN}, zero[8] = {0};
   const lab_stretch few = {r, 3}, nothing = {zero, 8};
@@ -167,17 +167,5 @@ static void test_lab_whiteness_test__too_few_values__says_nothing(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_chi2_tail__one_two_four_degrees__closed_forms),
-      cmocka_unit_test(test_lab_chi2_tail__printed_points__their_probability),
-      cmocka_unit_test(test_lab_chi2_tail__many_degrees__the_integral_of_the_density),
-      cmocka_unit_test(test_lab_whiteness_test__white__refused_at_its_rate),
-      cmocka_unit_test(test_lab_whiteness_test__white_with_gaps__refused_at_its_rate),
-      cmocka_unit_test(test_lab_whiteness_test__autoregressive__refused),
-      cmocka_unit_test(test_lab_whiteness_test__autoregressive__correlation_is_rho_to_the_lag),
-      cmocka_unit_test(test_lab_whiteness_test__constant__is_not_white),
-      cmocka_unit_test(test_lab_whiteness_test__gap_and_edge__no_pair_across),
-      cmocka_unit_test(test_lab_whiteness_test__too_few_values__says_nothing),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

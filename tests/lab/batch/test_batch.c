@@ -43,7 +43,7 @@ static void assert_entry(int i, int line, const char *name, const char *rig, con
   assert_string_equal(entry[i].holdout, holdout);
 }
 
-static void test_lab_fleet_list__as_documented__is_read(void **state)
+TEST(test_lab_fleet_list__as_documented__is_read)
 {
   assert_int_equal(
       read_list("# presses of hall 2\nname,rig,log,holdout\npress-1,rigs/p.cfg,may/a.csv;may/b.csv,june.csv\n"
@@ -54,7 +54,7 @@ static void test_lab_fleet_list__as_documented__is_read(void **state)
 }
 
 /* As spreadsheets of other countries save it: marks, quotes, byte order mark, ends of lines, cells that are empty. */
-static void test_lab_fleet_list__from_spreadsheets__is_the_same(void **state)
+TEST(test_lab_fleet_list__from_spreadsheets__is_the_same)
 {
   static const char *const same[] = {
       "name,rig,log,holdout\none,r.cfg,a.csv;b.csv,\ntwo,r.cfg,c.csv,d.csv\n",
@@ -77,13 +77,13 @@ static void test_lab_fleet_list__from_spreadsheets__is_the_same(void **state)
   }
 }
 
-static void test_lab_fleet_list__quotes_and_commas_in_a_cell__are_kept(void **state)
+TEST(test_lab_fleet_list__quotes_and_commas_in_a_cell__are_kept)
 {
   assert_int_equal(read_list("log,rig,name\n\"a,b.csv\",r 5\".cfg,\"say \"\"hi\"\"\"\n"), 1);
   assert_entry(0, 2, "say \"hi\"", "r 5\".cfg", "a,b.csv", "");
 }
 
-static void test_lab_fleet_list__no_name__is_called_as_its_log(void **state)
+TEST(test_lab_fleet_list__no_name__is_called_as_its_log)
 {
   static const struct {
     const char *log, *name;
@@ -98,7 +98,7 @@ static void test_lab_fleet_list__no_name__is_called_as_its_log(void **state)
   }
 }
 
-static void test_lab_fleet_list__date__is_a_day_or_a_moment(void **state)
+TEST(test_lab_fleet_list__date__is_a_day_or_a_moment)
 {
   assert_int_equal(
       read_list("rig,log,date\nr.cfg,a.csv,1970-01-11\nr.cfg,b.csv,1970-01-11T13:30+01:30\nr.cfg,c.csv,\n"), 3);
@@ -109,7 +109,7 @@ static void test_lab_fleet_list__date__is_a_day_or_a_moment(void **state)
 }
 
 /* Such a line is an error by itself, so that the others are done. */
-static void test_lab_fleet_list__date_of_another_form__is_wrong_with_its_line(void **state)
+TEST(test_lab_fleet_list__date_of_another_form__is_wrong_with_its_line)
 {
   static const char *const dates[] = {"3/14/2026", "26-01-02", "2026-13-02", "12:30"};
   size_t i;
@@ -123,7 +123,7 @@ static void test_lab_fleet_list__date_of_another_form__is_wrong_with_its_line(vo
   }
 }
 
-static void test_lab_fleet_list__bad__is_refused_with_its_line(void **state)
+TEST(test_lab_fleet_list__bad__is_refused_with_its_line)
 {
   static const struct {
     const char *text, *line, *words;
@@ -153,7 +153,7 @@ static void test_lab_fleet_list__bad__is_refused_with_its_line(void **state)
   }
 }
 
-static void test_lab_fleet_list__long_cell__is_refused(void **state)
+TEST(test_lab_fleet_list__long_cell__is_refused)
 {
   char text[LAB_FLEET_ENTRY_TEXT + 100];
   snprintf(text, sizeof text, "rig,log\nr.cfg,%0*d\n", LAB_FLEET_ENTRY_TEXT, 0);
@@ -165,7 +165,7 @@ static void test_lab_fleet_list__long_cell__is_refused(void **state)
   assert_contains(error.text, "give it a name");
 }
 
-static void test_lab_fleet_list__zero_byte__is_refused(void **state)
+TEST(test_lab_fleet_list__zero_byte__is_refused)
 {
   static const char bytes[] = "rig,log\nr.cfg,\0.csv\n";
   lab_fleet_list list;
@@ -189,7 +189,7 @@ static int check_list(const char *text, int *n)
   return status;
 }
 
-static void test_lab_fleet_list_check__doubles_and_no_lines__are_refused(void **state)
+TEST(test_lab_fleet_list_check__doubles_and_no_lines__are_refused)
 {
   int n;
   assert_int_equal(check_list("rig,log\nr,a.csv\nr,b.csv\n", &n), LAB_OK);
@@ -200,7 +200,7 @@ static void test_lab_fleet_list_check__doubles_and_no_lines__are_refused(void **
   assert_contains(error.text, "no line after it");
 }
 
-static void test_lab_split__blanks_and_empty_parts__are_dropped(void **state)
+TEST(test_lab_split__blanks_and_empty_parts__are_dropped)
 {
   char text[] = " a.csv ;; b c.csv;", many[] = "a;b;c";
   const char *part[2];
@@ -226,7 +226,7 @@ static lab_done sample(void)
   return done;
 }
 
-static void test_lab_done__written__reads_back(void **state)
+TEST(test_lab_done__written__reads_back)
 {
   const lab_done want = sample();
   const char *folder = scratch_path("press-1");
@@ -246,7 +246,7 @@ static void test_lab_done__written__reads_back(void **state)
 }
 
 /* However little of it has reached the disk. */
-static void test_lab_done__torn__is_not_there(void **state)
+TEST(test_lab_done__torn__is_not_there)
 {
   const lab_done want = sample();
   lab_done got;
@@ -263,7 +263,7 @@ static void test_lab_done__torn__is_not_there(void **state)
   free(whole);
 }
 
-static void test_lab_row__error__has_the_headers_cells(void **state)
+TEST(test_lab_row__error__has_the_headers_cells)
 {
   char header[1024] = "";
   FILE *file = fmemopen(header, sizeof header, "w");
@@ -296,7 +296,7 @@ static void add_line(lab_index *index, const char *name, const char *row, int ex
 }
 
 /* The worst first: by verdict, effects by how much of the error they explain, then in the order of the list. */
-static void test_lab_index__all_verdicts__worst_first(void **state)
+TEST(test_lab_index__all_verdicts__worst_first)
 {
   static const char *const order[] = {">torn<",   ">odd<",  ">large<",  ">small & <b><", ">worn<",
                                       ">unsure<", ">fine<", ">fine 2<", ">quiet<"};
@@ -393,7 +393,7 @@ static int run_jobs(tally *t, int at_once)
   return status;
 }
 
-static void test_lab_jobs__any_number_at_once__does_each_job_once(void **state)
+TEST(test_lab_jobs__any_number_at_once__does_each_job_once)
 {
   static const int at_once[] = {1, 3, 30};
   size_t k;
@@ -411,7 +411,7 @@ static void test_lab_jobs__any_number_at_once__does_each_job_once(void **state)
   }
 }
 
-static void test_lab_jobs__result_that_cannot_be_kept__ends_the_run(void **state)
+TEST(test_lab_jobs__result_that_cannot_be_kept__ends_the_run)
 {
   tally t = {0};
   t.stop_after = 5;
@@ -484,7 +484,7 @@ static const char *long_list(const char *name, int n)
   return path;
 }
 
-static void test_lab_batch__lines_that_fail__are_lines(void **state)
+TEST(test_lab_batch__lines_that_fail__are_lines)
 {
   assert_int_equal(run_list(long_list("three.csv", 3), "failing"), LAB_DATA);
   assert_in_file("failing/batch.csv", "\nn0,error,");
@@ -504,7 +504,7 @@ static void run_one(const char *rig, const char *folder)
 }
 
 /* The file of a stranger takes in no other, unless that is allowed. */
-static void test_lab_batch__rig_with_include__is_refused_unless_allowed(void **state)
+TEST(test_lab_batch__rig_with_include__is_refused_unless_allowed)
 {
   static const char rig[] = "supply = { pressure = \"2 bar\"; };\n  @include \"other.cfg\"\n";
   run_one(rig, "refused");
@@ -516,7 +516,7 @@ static void test_lab_batch__rig_with_include__is_refused_unless_allowed(void **s
   assert_in_file("allowed/batch.csv", "actuator.stroke: ");
 }
 
-static void test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_line(void **state)
+TEST(test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_line)
 {
   char text[600] = "name,rig,log\nmany,rig.cfg,log.csv";
   int i;
@@ -528,7 +528,7 @@ static void test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_l
 }
 
 /* A log of 12 MB, which asks for 25 MB at once while it is read, beside a short one. */
-static void test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line(void **state)
+TEST(test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line)
 {
   FILE *file = fopen(scratch_path("large.csv"), "w");
   int i;
@@ -563,7 +563,7 @@ static const char *leak_list(void)
   return scratch_text("leak.csv", text);
 }
 
-static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_line(void **state)
+TEST(test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_line)
 {
   static const struct {
     long room;
@@ -581,7 +581,7 @@ static void test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_l
 }
 
 /* 2000 lines take no more than 100, but for the list itself and the 16 bytes a line of its check. */
-static void test_lab_batch__long_list__takes_no_more_memory(void **state)
+TEST(test_lab_batch__long_list__takes_no_more_memory)
 {
   long few;
 #ifdef __SANITIZE_ADDRESS__
@@ -596,30 +596,5 @@ static void test_lab_batch__long_list__takes_no_more_memory(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_fleet_list__as_documented__is_read),
-      cmocka_unit_test(test_lab_fleet_list__from_spreadsheets__is_the_same),
-      cmocka_unit_test(test_lab_fleet_list__quotes_and_commas_in_a_cell__are_kept),
-      cmocka_unit_test(test_lab_fleet_list__no_name__is_called_as_its_log),
-      cmocka_unit_test(test_lab_fleet_list__date__is_a_day_or_a_moment),
-      cmocka_unit_test(test_lab_fleet_list__date_of_another_form__is_wrong_with_its_line),
-      cmocka_unit_test(test_lab_fleet_list__bad__is_refused_with_its_line),
-      cmocka_unit_test(test_lab_fleet_list__long_cell__is_refused),
-      cmocka_unit_test(test_lab_fleet_list__zero_byte__is_refused),
-      cmocka_unit_test(test_lab_fleet_list_check__doubles_and_no_lines__are_refused),
-      cmocka_unit_test(test_lab_split__blanks_and_empty_parts__are_dropped),
-      cmocka_unit_test(test_lab_done__written__reads_back),
-      cmocka_unit_test(test_lab_done__torn__is_not_there),
-      cmocka_unit_test(test_lab_row__error__has_the_headers_cells),
-      cmocka_unit_test(test_lab_index__all_verdicts__worst_first),
-      cmocka_unit_test(test_lab_jobs__any_number_at_once__does_each_job_once),
-      cmocka_unit_test(test_lab_jobs__result_that_cannot_be_kept__ends_the_run),
-      cmocka_unit_test(test_lab_batch__lines_that_fail__are_lines),
-      cmocka_unit_test(test_lab_batch__rig_with_include__is_refused_unless_allowed),
-      cmocka_unit_test(test_lab_batch__more_logs_than_a_line_may_have__is_an_error_of_its_line),
-      cmocka_unit_test(test_lab_batch__log_beyond_the_memory_of_a_line__is_an_error_of_its_line),
-      cmocka_unit_test(test_lab_batch__file_beyond_the_room_of_a_line__is_an_error_of_its_line),
-      cmocka_unit_test(test_lab_batch__long_list__takes_no_more_memory),
-  };
-  return cmocka_run_group_tests_name("batch", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

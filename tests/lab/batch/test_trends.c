@@ -20,6 +20,8 @@ static int forget(void **state)
   return 0;
 }
 
+#define CASE(name) TEST_WITH(name, NULL, forget)
+
 /* A line of the list and what its report says.  In: json  without the braces */
 static void add(const char *rig, int day, const char *json)
 {
@@ -55,7 +57,7 @@ static void find(void)
 
 /* ---- What is taken up ---- */
 
-static void test_lab_history__report__gives_what_is_known(void **state)
+CASE(test_lab_history__report__gives_what_is_known)
 {
   add("r", 1,
       "\"verdict\":\"effect\",\"parameters\":{"
@@ -75,7 +77,7 @@ static void test_lab_history__report__gives_what_is_known(void **state)
   assert_close(history.of[2].tolerance, 0.1, 0, 0);
 }
 
-static void test_lab_history__half_a_report__is_an_error(void **state)
+CASE(test_lab_history__half_a_report__is_an_error)
 {
   lab_fleet_entry line = {0};
   char folder[400];
@@ -91,7 +93,7 @@ static void test_lab_history__half_a_report__is_an_error(void **state)
 /* ---- What it comes to ---- */
 
 /* 1000, 1020, 1040 at days 0, 20, 40, which leaves 1100 sixty days later, however the lines are ordered. */
-static void test_lab_trends__drift__is_told_with_the_days_left(void **state)
+CASE(test_lab_trends__drift__is_told_with_the_days_left)
 {
   char sentence[LAB_TREND_SENTENCE];
   add_value("b", 40, "spring_rate", 1040);
@@ -113,7 +115,7 @@ static void test_lab_trends__drift__is_told_with_the_days_left(void **state)
 }
 
 /* The same downwards: the lower side of the tolerance is left. */
-static void test_lab_trends__fall__leaves_at_the_lower_side(void **state)
+CASE(test_lab_trends__fall__leaves_at_the_lower_side)
 {
   char sentence[LAB_TREND_SENTENCE];
   add_value("r", 0, "v", 1000);
@@ -124,7 +126,7 @@ static void test_lab_trends__fall__leaves_at_the_lower_side(void **state)
 }
 
 /* What is beyond its tolerance at either side, what has none, and what does not drift. */
-static void test_lab_trends__sentence__fits_what_is_known(void **state)
+CASE(test_lab_trends__sentence__fits_what_is_known)
 {
   static const struct {
     double from, to;
@@ -151,7 +153,7 @@ static void test_lab_trends__sentence__fits_what_is_known(void **state)
 }
 
 /* A slope of two and a half deviations tells something alone, and nothing among ten. */
-static void test_lab_trends__many_parameters__need_more(void **state)
+CASE(test_lab_trends__many_parameters__need_more)
 {
   char name[8];
   int k;
@@ -173,7 +175,7 @@ static void test_lab_trends__many_parameters__need_more(void **state)
 
 /* ---- What is written ---- */
 
-static void test_lab_trends__written__table_and_page(void **state)
+CASE(test_lab_trends__written__table_and_page)
 {
   cJSON *page = cJSON_CreateObject();
   char *text;
@@ -202,14 +204,5 @@ static void test_lab_trends__written__table_and_page(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(test_lab_history__report__gives_what_is_known, forget),
-      cmocka_unit_test_teardown(test_lab_history__half_a_report__is_an_error, forget),
-      cmocka_unit_test_teardown(test_lab_trends__drift__is_told_with_the_days_left, forget),
-      cmocka_unit_test_teardown(test_lab_trends__fall__leaves_at_the_lower_side, forget),
-      cmocka_unit_test_teardown(test_lab_trends__sentence__fits_what_is_known, forget),
-      cmocka_unit_test_teardown(test_lab_trends__many_parameters__need_more, forget),
-      cmocka_unit_test_teardown(test_lab_trends__written__table_and_page, forget),
-  };
-  return cmocka_run_group_tests_name("trends", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

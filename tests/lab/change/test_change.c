@@ -82,7 +82,7 @@ static void assert_change(const char *what, double now)
   assert_between(changes.change[0].p_value, 0, 1e-6);
 }
 
-static void test_lab_changes_find__another_day__is_unchanged(void **state)
+TEST(test_lab_changes_find__another_day__is_unchanged)
 {
   second_rig now = virtual_rig(8);
   now.supply *= 1.02;
@@ -114,7 +114,7 @@ typedef struct day {
 
 /* What it does to supply, air and gains cancels but for a hundredth of each. A fit that loses its way there calls it a
  * gain of the pressure sensor, a film or a back pressure. Such valleys need long logs. */
-static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void **state)
+TEST(test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged)
 {
   static const day days[] = {{5, 0.9824069, 206.9, 0.21, 23.8, -9.617e-5, 0.98732},
                              {29, 1.008735, 320.98, -4.1962, 630.97, -9.4745e-05, 1.037990}};
@@ -146,7 +146,7 @@ static void test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged(void
 }
 
 /* The zero of a sensor that each log has for itself is another every day. */
-static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
+TEST(test_lab_changes_find__zero_of_each_log__is_no_change)
 {
   const int zero = pneu_param_find("position_bias.position_bias");
   second_rig then = virtual_rig(7), now = virtual_rig(8);
@@ -163,7 +163,7 @@ static void test_lab_changes_find__zero_of_each_log__is_no_change(void **state)
   assert_int_equal(changes.n, 0);
 }
 
-static void test_lab_changes_find__leak__is_the_change(void **state)
+TEST(test_lab_changes_find__leak__is_the_change)
 {
   second_rig now = virtual_rig(8);
   now.leak_area = 1.5e-8;
@@ -173,7 +173,7 @@ static void test_lab_changes_find__leak__is_the_change(void **state)
 }
 
 /* Chi-square falls by 33 for it: beyond chance (p = 8e-9), but no more than a model not quite the rig's leaves. */
-static void test_lab_changes_find__leak_that_hardly_shows__is_no_change(void **state)
+TEST(test_lab_changes_find__leak_that_hardly_shows__is_no_change)
 {
   second_rig now = virtual_rig(8);
   now.leak_area = 1.6e-9;
@@ -181,7 +181,7 @@ static void test_lab_changes_find__leak_that_hardly_shows__is_no_change(void **s
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
 }
 
-static void test_lab_changes_find__more_friction__is_the_change(void **state)
+TEST(test_lab_changes_find__more_friction__is_the_change)
 {
   second_rig now = virtual_rig(8);
   now.supply *= 0.99;
@@ -194,7 +194,7 @@ static void test_lab_changes_find__more_friction__is_the_change(void **state)
 /* What the orifices pass goes with the sizes of chamber and spring. Where nothing is known of these it is uncertain by
  * the same share then and now, 42 %, so that the interval shrinks with the orifices; as wide as then it would be 70 %.
  */
-static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share(void **state)
+TEST(test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share)
 {
   second_rig then = virtual_rig(7), now = virtual_rig(8);
   now.fill_area *= 0.6;
@@ -209,7 +209,7 @@ static void test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_
   assert_between((changes.change[0].high - changes.change[0].low) / 2 / changes.change[0].now, 0.2, 0.5);
 }
 
-static void test_lab_changes_find__softer_spring__is_the_change(void **state)
+TEST(test_lab_changes_find__softer_spring__is_the_change)
 {
   second_rig now = virtual_rig(8);
   now.spring_rate *= 0.9;
@@ -257,7 +257,7 @@ static void assert_since(const lab_onset *onset, double t, double within)
 }
 
 /* A sensor's error needs no time to set in. */
-static void test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset(void **state)
+TEST(test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset)
 {
   const second_rig now = virtual_rig(8);
   second_rig failed = now;
@@ -268,7 +268,7 @@ static void test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset(v
   assert_false(changes.change[0].end.known);
 }
 
-static void test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset(void **state)
+TEST(test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset)
 {
   const second_rig now = virtual_rig(8);
   second_rig leaks = now;
@@ -313,7 +313,7 @@ static void compare_plant(const second_rig *early, const second_rig *late, doubl
 }
 
 /* ... comes back, and the positioner hides it as long as it suffices. */
-static void test_lab_changes_find__supply_that_comes_back__has_the_time(void **state)
+TEST(test_lab_changes_find__supply_that_comes_back__has_the_time)
 {
   second_rig now = plant_rig(8), fails = now;
   fails.supply = 30e3;
@@ -325,7 +325,7 @@ static void test_lab_changes_find__supply_that_comes_back__has_the_time(void **s
 }
 
 /* ... or fails on the way, and stays so. */
-static void test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset(void **state)
+TEST(test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset)
 {
   second_rig now = plant_rig(8), fails = now;
   fails.supply = 60e3;
@@ -335,7 +335,7 @@ static void test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset(v
   assert_false(changes.change[0].end.known);
 }
 
-static void test_lab_changes_find__plant_as_ever__is_unchanged(void **state)
+TEST(test_lab_changes_find__plant_as_ever__is_unchanged)
 {
   second_rig now = plant_rig(8);
   now.supply *= 1.02;
@@ -345,7 +345,7 @@ static void test_lab_changes_find__plant_as_ever__is_unchanged(void **state)
 }
 
 /* Something that no parameter has: it can be told neither that all is well nor what is not. */
-static void test_lab_changes_find__no_parameter_has_it__cannot_tell(void **state)
+TEST(test_lab_changes_find__no_parameter_has_it__cannot_tell)
 {
   second_rig now = virtual_rig(8);
   now.force = 900;
@@ -358,21 +358,5 @@ static void test_lab_changes_find__no_parameter_has_it__cannot_tell(void **state
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_changes_find__another_day__is_unchanged),
-      cmocka_unit_test(test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged),
-      cmocka_unit_test(test_lab_changes_find__zero_of_each_log__is_no_change),
-      cmocka_unit_test(test_lab_changes_find__leak__is_the_change),
-      cmocka_unit_test(test_lab_changes_find__leak_that_hardly_shows__is_no_change),
-      cmocka_unit_test(test_lab_changes_find__more_friction__is_the_change),
-      cmocka_unit_test(test_lab_changes_find__smaller_orifices_of_a_rig_without_sizes__are_uncertain_by_a_share),
-      cmocka_unit_test(test_lab_changes_find__softer_spring__is_the_change),
-      cmocka_unit_test(test_lab_changes_find__sensor_that_fails_on_the_way__has_its_onset),
-      cmocka_unit_test(test_lab_changes_find__leak_that_begins_on_the_way__has_its_onset),
-      cmocka_unit_test(test_lab_changes_find__supply_that_comes_back__has_the_time),
-      cmocka_unit_test(test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset),
-      cmocka_unit_test(test_lab_changes_find__plant_as_ever__is_unchanged),
-      cmocka_unit_test(test_lab_changes_find__no_parameter_has_it__cannot_tell),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

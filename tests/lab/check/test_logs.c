@@ -30,7 +30,7 @@ static int driver(const char *text, int has_positioner, int by_set_position, int
   return command;
 }
 
-static void test_lab_logs_add__u_and_set_position__the_latter_drives_where_asked_and_declared(void **state)
+TEST(test_lab_logs_add__u_and_set_position__the_latter_drives_where_asked_and_declared)
 {
   int has_positioner, asked, without_u;
   for (has_positioner = 0; has_positioner < 2; has_positioner++)
@@ -42,7 +42,7 @@ static void test_lab_logs_add__u_and_set_position__the_latter_drives_where_asked
 }
 
 /* It is written where it changes, and says nothing of the rows between. */
-static void test_lab_logs_add__set_position_with_gaps__is_only_shown(void **state)
+TEST(test_lab_logs_add__set_position_with_gaps__is_only_shown)
 {
   int without_u;
   assert_int_equal(driver(gaps, 1, 1, &without_u), LAB_CHANNEL_U);
@@ -51,9 +51,5 @@ static void test_lab_logs_add__set_position_with_gaps__is_only_shown(void **stat
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_logs_add__u_and_set_position__the_latter_drives_where_asked_and_declared),
-      cmocka_unit_test(test_lab_logs_add__set_position_with_gaps__is_only_shown),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

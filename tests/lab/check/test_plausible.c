@@ -38,6 +38,8 @@ static int fresh(void **state)
   return done(state);
 }
 
+#define CASE(name) TEST_WITH(name, fresh, done)
+
 static void read_files(const char *rig_path, const char *log_path)
 {
   lab_log_free(&log_read);
@@ -90,7 +92,7 @@ static void assert_quiet(void)
 
 /* ---- Logs that must pass ---- */
 
-static void test_lab_plausible__sound_log__is_quiet(void **state)
+CASE(test_lab_plausible__sound_log__is_quiet)
 {
   read_log(&sound);
   assert_quiet();
@@ -99,33 +101,33 @@ static void test_lab_plausible__sound_log__is_quiet(void **state)
   assert_int_equal(content.values, 2 * BAD_ROWS);
 }
 
-static void test_lab_plausible__leak__is_quiet(void **state)
+CASE(test_lab_plausible__leak__is_quiet)
 {
   const bad_log b = bad_log_of(5e-8); /* a eighteenth of the orifice */
   read_log(&b);
   assert_quiet();
 }
 
-static void test_lab_plausible__position_only__is_quiet(void **state)
+CASE(test_lab_plausible__position_only__is_quiet)
 {
   read_columns("t [s],u [1],-,x [mm]", &sound, "");
   assert_quiet();
 }
 
-static void test_lab_plausible__pressure_only__is_quiet(void **state)
+CASE(test_lab_plausible__pressure_only__is_quiet)
 {
   read_columns("t [s],u [1],p [kPa],-", &sound, "");
   assert_quiet();
 }
 
-static void test_lab_plausible__pressure_as_input__is_quiet(void **state)
+CASE(test_lab_plausible__pressure_as_input__is_quiet)
 {
   read_columns("t [s],-,p [kPa],x [mm]", &sound, "inputs = [\"p\"];\n");
   assert_quiet();
 }
 
 /* Closed and charged, 21 rows of a pressure that sinks: no command, no stem. */
-static void test_lab_plausible__vessel_that_leaks__is_quiet(void **state)
+CASE(test_lab_plausible__vessel_that_leaks__is_quiet)
 {
   char text[2048] = "t [s],p [kPa]\n";
   int i;
@@ -139,7 +141,7 @@ static void test_lab_plausible__vessel_that_leaks__is_quiet(void **state)
 }
 
 /* A weak pump and a sensor that is off by its declared noise: more than the supply, and not by enough to refuse it. */
-static void test_lab_plausible__more_than_the_supply_by_less_than_noise__passes(void **state)
+CASE(test_lab_plausible__more_than_the_supply_by_less_than_noise__passes)
 {
   char text[4096] = "t [s],p [kPa]\n";
   int i;
@@ -154,7 +156,7 @@ static void test_lab_plausible__more_than_the_supply_by_less_than_noise__passes(
 }
 
 /* An area wrong by a factor of five is what fits are for. */
-static void test_lab_plausible__poor_guess_of_the_orifices__is_quiet(void **state)
+CASE(test_lab_plausible__poor_guess_of_the_orifices__is_quiet)
 {
   static const double factors[] = {0.2, 5};
   int i;
@@ -168,7 +170,7 @@ static void test_lab_plausible__poor_guess_of_the_orifices__is_quiet(void **stat
 }
 
 /* A valve forty times slower than declared is refused, unless a positioner gave its commands. */
-static void test_lab_plausible__slow_valve__is_refused_unless_a_positioner_moves_it(void **state)
+CASE(test_lab_plausible__slow_valve__is_refused_unless_a_positioner_moves_it)
 {
   int with_positioner;
   for (with_positioner = 0; with_positioner < 2; with_positioner++) {
@@ -185,7 +187,7 @@ static void test_lab_plausible__slow_valve__is_refused_unless_a_positioner_moves
 }
 
 /* The logs of the rig that come with the data, where they are on this machine: none may be refused or doubted. */
-static void test_lab_plausible__logs_of_the_rig__are_quiet(void **state)
+CASE(test_lab_plausible__logs_of_the_rig__are_quiet)
 {
   static const char *const names[] = {"backpressure-a", "bias-a",         "choked-a",    "lag-a",
                                       "leak-a",         "leak-b",         "null-a",      "null-b",
@@ -212,7 +214,7 @@ static void test_lab_plausible__logs_of_the_rig__are_quiet(void **state)
 
 /* ---- Content ---- */
 
-static void test_lab_plausible_content__one_still_run_of_two__passes(void **state)
+CASE(test_lab_plausible_content__one_still_run_of_two__passes)
 {
   bad_log b = sound;
   read_log(&sound);
@@ -224,7 +226,7 @@ static void test_lab_plausible_content__one_still_run_of_two__passes(void **stat
   assert_int_equal(content.still, 1);
 }
 
-static void test_lab_plausible_content__nothing_but_still_runs__is_refused(void **state)
+CASE(test_lab_plausible_content__nothing_but_still_runs__is_refused)
 {
   bad_log b = sound;
   b.n = 40;
@@ -234,7 +236,7 @@ static void test_lab_plausible_content__nothing_but_still_runs__is_refused(void 
 
 /* ---- Checks that the processes do not reach ---- */
 
-static void test_lab_plausible__temperature_in_other_degrees__is_refused(void **state)
+CASE(test_lab_plausible__temperature_in_other_degrees__is_refused)
 {
   bad_log b = sound;
   size_t i;
@@ -244,7 +246,7 @@ static void test_lab_plausible__temperature_in_other_degrees__is_refused(void **
   assert_judged_wrong("degC and K");
 }
 
-static void test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused(void **state)
+CASE(test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused)
 {
   char text[8192] = "t [s],u [1],p [kPa]\n";
   int i;
@@ -260,7 +262,7 @@ static void test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused(v
 }
 
 /* A chamber that reads ambient without a gauge would leave its stem on the stop. */
-static void test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge(void **state)
+CASE(test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge)
 {
   char text[8192] = "t [s],u [1],p [kPa],x [mm]\n";
   int i;
@@ -277,7 +279,7 @@ static void test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge(void **st
       fail_msg("%s", limitations.text[i]);
 }
 
-static void test_lab_plausible__declared_noise_too_small__is_a_remark(void **state)
+CASE(test_lab_plausible__declared_noise_too_small__is_a_remark)
 {
   read_log(&sound);
   rig.noise[LAB_CHANNEL_P] = 32;
@@ -287,7 +289,7 @@ static void test_lab_plausible__declared_noise_too_small__is_a_remark(void **sta
   assert_int_equal(limitations.doubt, 0);
 }
 
-static void test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_used(void **state)
+CASE(test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_used)
 {
   static const struct {
     const char *inputs;
@@ -307,7 +309,7 @@ static void test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_u
 }
 
 /* A control system's output bar: 50 % is shut. */
-static void test_lab_plausible__half_that_is_shut__is_told(void **state)
+CASE(test_lab_plausible__half_that_is_shut__is_told)
 {
   static const struct {
     double sign;
@@ -345,7 +347,7 @@ static void read_sinking_vessel(double after)
              scratch_text("log.csv", text));
 }
 
-static void test_lab_plausible__pressure_lost_while_filling_or_shut__is_told(void **state)
+CASE(test_lab_plausible__pressure_lost_while_filling_or_shut__is_told)
 {
   read_sinking_vessel(0);
   assert_passes();
@@ -371,7 +373,7 @@ static void declare_supply(double pressure)
   rig.params.supply_pressure = (pneu_real)pressure;
 }
 
-static void test_lab_is_at_rest__supply_in_another_unit__is_named(void **state)
+CASE(test_lab_is_at_rest__supply_in_another_unit__is_named)
 {
   static const struct meant {
     double number;
@@ -393,7 +395,7 @@ static void test_lab_is_at_rest__supply_in_another_unit__is_named(void **state)
   assert_string_equal(text, "");
 }
 
-static void test_lab_is_at_rest__supply_that_does_not_count__is_quiet(void **state)
+CASE(test_lab_is_at_rest__supply_that_does_not_count__is_quiet)
 {
   static const int inputs[] = {LAB_CHANNEL_P, LAB_CHANNEL_X, LAB_CHANNEL_PS, LAB_CHANNEL_FORCE};
   char text[LAB_LIMITATION_TEXT];
@@ -418,7 +420,7 @@ static void test_lab_is_at_rest__supply_that_does_not_count__is_quiet(void **sta
   assert_int_equal(lab_is_at_rest(&rig, 1, text), 0);
 }
 
-static void test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less(void **state)
+CASE(test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less)
 {
   char text[LAB_LIMITATION_TEXT];
   declare_supply(12e3);
@@ -428,7 +430,7 @@ static void test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less(void **
   assert_int_equal(lab_is_at_rest(&rig, 1, text), 1);
 }
 
-static void test_lab_plausible__stem_that_rises_without_supply__is_refused(void **state)
+CASE(test_lab_plausible__stem_that_rises_without_supply__is_refused)
 {
   read_columns("t [s],u [1],-,x [mm]", &sound, "");
   rig.params.supply_pressure = (pneu_real)2.5;
@@ -436,7 +438,7 @@ static void test_lab_plausible__stem_that_rises_without_supply__is_refused(void 
 }
 
 /* A recorder of 0.1 mm, whose last digit turns: what hardly moves is stuck. */
-static void test_lab_plausible__stem_that_hardly_moves__is_stuck(void **state)
+CASE(test_lab_plausible__stem_that_hardly_moves__is_stuck)
 {
   bad_log b = sound;
   size_t i;
@@ -448,7 +450,7 @@ static void test_lab_plausible__stem_that_hardly_moves__is_stuck(void **state)
 }
 
 /* A decay of pressure below the bench set: the stem rests in the log as in the model. */
-static void test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark(void **state)
+CASE(test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark)
 {
   bad_log b = sound;
   size_t i;
@@ -470,7 +472,7 @@ static void test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark(vo
 
 /* ---- Mending ---- */
 
-static void test_lab_log_clean__pressure_input_that_saturates__is_refused(void **state)
+CASE(test_lab_log_clean__pressure_input_that_saturates__is_refused)
 {
   bad_log b = sound;
   size_t i;
@@ -481,7 +483,7 @@ static void test_lab_log_clean__pressure_input_that_saturates__is_refused(void *
 }
 
 /* Without noise a plateau that is reached at speed gives it away; one that follows a command does not. */
-static void test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abrupt(void **state)
+CASE(test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abrupt)
 {
   bad_log b = sound;
   size_t i, gaps = 0;
@@ -501,7 +503,7 @@ static void test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abr
 }
 
 /* A log without any noise rests exactly on its stops and that is no saturation. */
-static void test_lab_log_clean__stop_without_noise__stays(void **state)
+CASE(test_lab_log_clean__stop_without_noise__stays)
 {
   bad_log b = sound;
   size_t i;
@@ -512,7 +514,7 @@ static void test_lab_log_clean__stop_without_noise__stays(void **state)
   assert_int_equal(limitations.n, 0);
 }
 
-static void test_lab_log_clean__spike__becomes_a_gap(void **state)
+CASE(test_lab_log_clean__spike__becomes_a_gap)
 {
   bad_log b = sound;
   b.p[300] = 9999;
@@ -563,7 +565,7 @@ static double always(size_t i)
   return (double)(i % 10) / 10;
 }
 
-static void test_lab_log_thin__few_changes__keeps_them_and_the_row_before(void **state)
+CASE(test_lab_log_thin__few_changes__keeps_them_and_the_row_before)
 {
   lab_log log = make_log(10001, seldom);
   const double *t = log.value[LAB_CHANNEL_TIME], *u = log.value[LAB_CHANNEL_U];
@@ -588,7 +590,7 @@ static void test_lab_log_thin__few_changes__keeps_them_and_the_row_before(void *
   lab_log_free(&log);
 }
 
-static void test_lab_log_thin__busy_command__is_averaged(void **state)
+CASE(test_lab_log_thin__busy_command__is_averaged)
 {
   lab_log log = make_log(10000, always);
   size_t i;
@@ -600,7 +602,7 @@ static void test_lab_log_thin__busy_command__is_averaged(void **state)
   lab_log_free(&log);
 }
 
-static void test_lab_log_thin__short_log__stays(void **state)
+CASE(test_lab_log_thin__short_log__stays)
 {
   lab_log log = make_log(500, seldom);
   lab_log_thin(&log, 500, &limitations);
@@ -609,7 +611,7 @@ static void test_lab_log_thin__short_log__stays(void **state)
   lab_log_free(&log);
 }
 
-static void test_lab_log_thin__two_runs__keep_their_ends(void **state)
+CASE(test_lab_log_thin__two_runs__keep_their_ends)
 {
   lab_log log = make_log(10000, seldom);
   size_t *run = calloc(3, sizeof *run);
@@ -627,7 +629,7 @@ static void test_lab_log_thin__two_runs__keep_their_ends(void **state)
 
 /* ---- Remarks, values ---- */
 
-static void test_lab_limitation__too_many__says_so(void **state)
+CASE(test_lab_limitation__too_many__says_so)
 {
   int i;
   lab_limitation(&limitations, "first");
@@ -640,7 +642,7 @@ static void test_lab_limitation__too_many__says_so(void **state)
   assert_contains(limitations.text[LAB_LIMITATION_MAX - 1], "more limitations");
 }
 
-static void test_lab_limitation__said_already__is_said_once(void **state)
+CASE(test_lab_limitation__said_already__is_said_once)
 {
   lab_limitation(&limitations, "short");
   lab_limitation(&limitations, "noisy");
@@ -649,7 +651,7 @@ static void test_lab_limitation__said_already__is_said_once(void **state)
   assert_int_equal(limitations.doubt, 1);
 }
 
-static void test_lab_limitations_join__held_out_doubt__is_only_a_remark(void **state)
+CASE(test_lab_limitations_join__held_out_doubt__is_only_a_remark)
 {
   static lab_limitations held;
   memset(&held, 0, sizeof held);
@@ -689,7 +691,7 @@ static double taken_off(const humming *h)
   return log.hum[LAB_CHANNEL_P].amplitude;
 }
 
-static void test_lab_log_remove_hum__only_the_mains__is_taken_off(void **state)
+CASE(test_lab_log_remove_hum__only_the_mains__is_taken_off)
 {
   assert_close(taken_off(&(humming){50, 200, 3e3, 0, 0}), 3e3, 0, 0.02);
   assert_close(taken_off(&(humming){60, 200, 3e3, 0, 0}), 3e3, 0, 0.02);
@@ -698,56 +700,14 @@ static void test_lab_log_remove_hum__only_the_mains__is_taken_off(void **state)
   assert_close(taken_off(&(humming){50, 7.2, 3e3, 0, 0}), 0, 0, 0);     /* so few rows a second: anything may be it */
 }
 
-static void test_lab_log_remove_hum__uneven_rows__are_as_good(void **state)
+CASE(test_lab_log_remove_hum__uneven_rows__are_as_good)
 {
   assert_close(taken_off(&(humming){50, 200, 3e3, 0.3, 0.03}), 3e3, 0, 0.02);
   assert_close(taken_off(&(humming){50, 200, 250, 0.3, 0.03}), 250, 0, 0.2); /* less than the noise of a row */
   assert_close(taken_off(&(humming){50, 200, 0, 0.3, 0.03}), 0, 0, 0);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, fresh, done)
-
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      TEST(test_lab_plausible__sound_log__is_quiet),
-      TEST(test_lab_plausible__leak__is_quiet),
-      TEST(test_lab_plausible__position_only__is_quiet),
-      TEST(test_lab_plausible__pressure_only__is_quiet),
-      TEST(test_lab_plausible__pressure_as_input__is_quiet),
-      TEST(test_lab_plausible__vessel_that_leaks__is_quiet),
-      TEST(test_lab_plausible__more_than_the_supply_by_less_than_noise__passes),
-      TEST(test_lab_plausible__poor_guess_of_the_orifices__is_quiet),
-      TEST(test_lab_plausible__slow_valve__is_refused_unless_a_positioner_moves_it),
-      TEST(test_lab_plausible__logs_of_the_rig__are_quiet),
-      TEST(test_lab_plausible_content__one_still_run_of_two__passes),
-      TEST(test_lab_plausible_content__nothing_but_still_runs__is_refused),
-      TEST(test_lab_plausible__temperature_in_other_degrees__is_refused),
-      TEST(test_lab_say_idle_columns__force_and_far_pressure__are_told_unless_used),
-      TEST(test_lab_plausible__vent_that_ends_at_ambient_absolute__is_refused),
-      TEST(test_lab_plausible__stem_off_its_stop_at_ambient__is_gauge),
-      TEST(test_lab_plausible__half_that_is_shut__is_told),
-      TEST(test_lab_plausible__pressure_lost_while_filling_or_shut__is_told),
-      TEST(test_lab_plausible__declared_noise_too_small__is_a_remark),
-      TEST(test_lab_is_at_rest__supply_in_another_unit__is_named),
-      TEST(test_lab_is_at_rest__supply_that_does_not_count__is_quiet),
-      TEST(test_lab_is_at_rest__spring_is_fitted__may_be_ten_times_less),
-      TEST(test_lab_plausible__stem_that_rises_without_supply__is_refused),
-      TEST(test_lab_plausible__stem_that_hardly_moves__is_stuck),
-      TEST(test_lab_plausible__stem_at_rest_below_its_bench_set__is_a_remark),
-      TEST(test_lab_log_clean__pressure_input_that_saturates__is_refused),
-      TEST(test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abrupt),
-      TEST(test_lab_log_clean__stop_without_noise__stays),
-      TEST(test_lab_log_clean__spike__becomes_a_gap),
-      TEST(test_lab_log_thin__few_changes__keeps_them_and_the_row_before),
-      TEST(test_lab_log_thin__busy_command__is_averaged),
-      TEST(test_lab_log_thin__short_log__stays),
-      TEST(test_lab_log_thin__two_runs__keep_their_ends),
-      TEST(test_lab_limitation__too_many__says_so),
-      TEST(test_lab_limitation__said_already__is_said_once),
-      TEST(test_lab_limitations_join__held_out_doubt__is_only_a_remark),
-      TEST(test_lab_log_remove_hum__only_the_mains__is_taken_off),
-      TEST(test_lab_log_remove_hum__uneven_rows__are_as_good),
-  };
-  return cmocka_run_group_tests(tests, open_all, scratch_close);
+  return tests_run(open_all, scratch_close);
 }

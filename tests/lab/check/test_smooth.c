@@ -77,7 +77,16 @@ static double left(double (*curve)(double t))
   return sqrt(sum / (double)log_made.n) / sigma;
 }
 
-static void test_lab_log_smooth_inputs__curve__loses_most_of_its_noise(void **state)
+static int done(void **state)
+{
+  lab_log_free(&log_made);
+  memset(&limitations, 0, sizeof limitations);
+  return 0;
+}
+
+#define CASE(name) TEST_WITH(name, NULL, done)
+
+CASE(test_lab_log_smooth_inputs__curve__loses_most_of_its_noise)
 {
   make(decay, sigma);
   assert_close(left(decay), 1, 0.1, 0);
@@ -87,7 +96,7 @@ static void test_lab_log_smooth_inputs__curve__loses_most_of_its_noise(void **st
   assert_int_equal(limitations.n > 0, 1);
 }
 
-static void test_lab_log_smooth_inputs__bends_between_rows__are_told(void **state)
+CASE(test_lab_log_smooth_inputs__bends_between_rows__are_told)
 {
   size_t i, n = 0;
   make(ramp, sigma);
@@ -104,7 +113,7 @@ static void test_lab_log_smooth_inputs__bends_between_rows__are_told(void **stat
   assert_int_equal(n, 2);
 }
 
-static void test_lab_log_smooth_inputs__what_is_no_input_or_has_no_noise__stays(void **state)
+CASE(test_lab_log_smooth_inputs__what_is_no_input_or_has_no_noise__stays)
 {
   size_t i;
   make(decay, sigma);
@@ -118,7 +127,7 @@ static void test_lab_log_smooth_inputs__what_is_no_input_or_has_no_noise__stays(
     assert_close(log_made.value[LAB_CHANNEL_P][i], decay(log_made.value[LAB_CHANNEL_TIME][i]), 0, 0);
 }
 
-static void test_lab_log_smooth_inputs__gaps__stay_gaps(void **state)
+CASE(test_lab_log_smooth_inputs__gaps__stay_gaps)
 {
   size_t i, gaps = 0;
   make(decay, sigma);
@@ -131,20 +140,7 @@ static void test_lab_log_smooth_inputs__gaps__stay_gaps(void **state)
   assert_true(isnan(log_made.value[LAB_CHANNEL_P][100]) && !isnan(log_made.value[LAB_CHANNEL_P][99]));
 }
 
-static int done(void **state)
-{
-  lab_log_free(&log_made);
-  memset(&limitations, 0, sizeof limitations);
-  return 0;
-}
-
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(test_lab_log_smooth_inputs__curve__loses_most_of_its_noise, done),
-      cmocka_unit_test_teardown(test_lab_log_smooth_inputs__bends_between_rows__are_told, done),
-      cmocka_unit_test_teardown(test_lab_log_smooth_inputs__what_is_no_input_or_has_no_noise__stays, done),
-      cmocka_unit_test_teardown(test_lab_log_smooth_inputs__gaps__stay_gaps, done),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -172,7 +172,7 @@ static lab_advice advise(const lab_advice_request *q, const pneu_params *a, cons
 
 /* ---- Separation ---- */
 
-static void test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orifices_shut(void **state)
+TEST(test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orifices_shut)
 {
   const lab_rig rig = make_rig();
   const lab_advice_request q = make_inquiry(&rig);
@@ -191,7 +191,7 @@ static void test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orif
 }
 
 /* What has been recorded counts by its slopes: a tenth of the whole is what its curvature may take. */
-static void test_lab_discriminate__separation__is_what_an_independent_fit_to_both_records_leaves(void **state)
+TEST(test_lab_discriminate__separation__is_what_an_independent_fit_to_both_records_leaves)
 {
   static stage before, after;
   const lab_rig rig = make_rig();
@@ -214,7 +214,7 @@ static void test_lab_discriminate__separation__is_what_an_independent_fit_to_bot
 }
 
 /* A valley: what is left falls by a tenth a step for several steps. */
-static void test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_end_of_the_valley(void **state)
+TEST(test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_end_of_the_valley)
 {
   const lab_rig rig = make_rig();
   const lab_advice_request q = make_inquiry(&rig);
@@ -239,7 +239,7 @@ static void test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_e
 
 /* With nothing but a moment of rest recorded, estimates are several times too large; the trial that is best after
  * fitting again must win all the same. */
-static void test_lab_discriminate__estimates_too_large__best_of_the_settled_wins(void **state)
+TEST(test_lab_discriminate__estimates_too_large__best_of_the_settled_wins)
 {
   static stage rest;
   static const lab_test_plan still = {"rest", 1, {0}, {0}, 0.5};
@@ -273,7 +273,7 @@ static void test_lab_discriminate__estimates_too_large__best_of_the_settled_wins
   lab_forecast_close(&rest.forecast);
 }
 
-static void test_lab_discriminate__models_exchanged__same_advice(void **state)
+TEST(test_lab_discriminate__models_exchanged__same_advice)
 {
   const lab_rig rig = make_rig();
   const lab_advice_request q = make_inquiry(&rig);
@@ -286,7 +286,7 @@ static void test_lab_discriminate__models_exchanged__same_advice(void **state)
   assert_true(one.separation == other.separation && one.usual == other.usual);
 }
 
-static void test_lab_discriminate__one_model_twice__nothing_separates_it(void **state)
+TEST(test_lab_discriminate__one_model_twice__nothing_separates_it)
 {
   const lab_rig rig = make_rig();
   const lab_advice_request q = make_inquiry(&rig);
@@ -296,7 +296,7 @@ static void test_lab_discriminate__one_model_twice__nothing_separates_it(void **
   assert_true(advice.separation == 0 && advice.usual == 0);
 }
 
-static void test_lab_discriminate__one_thing_under_two_names__nothing_separates_it(void **state)
+TEST(test_lab_discriminate__one_thing_under_two_names__nothing_separates_it)
 {
   const lab_rig rig = make_rig();
   const lab_advice_request q = make_inquiry(&rig);
@@ -308,7 +308,7 @@ static void test_lab_discriminate__one_thing_under_two_names__nothing_separates_
 }
 
 /* A first-order lag and a delay of equal time differ in the second order of that time only. */
-static void test_lab_discriminate__lag_or_skew_of_position__says_that_no_schedule_and_no_sensor_does(void **state)
+TEST(test_lab_discriminate__lag_or_skew_of_position__says_that_no_schedule_and_no_sensor_does)
 {
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
@@ -325,7 +325,7 @@ static void test_lab_discriminate__lag_or_skew_of_position__says_that_no_schedul
   }
 }
 
-static void test_lab_discriminate__position_alone_too_little__names_the_sensor_to_add(void **state)
+TEST(test_lab_discriminate__position_alone_too_little__names_the_sensor_to_add)
 {
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
@@ -340,7 +340,7 @@ static void test_lab_discriminate__position_alone_too_little__names_the_sensor_t
   assert_true(advice.plan.n > 2);
 }
 
-static void test_lab_discriminate__record_at_hand__is_judged_in_the_place_of_a_fill_and_vent(void **state)
+TEST(test_lab_discriminate__record_at_hand__is_judged_in_the_place_of_a_fill_and_vent)
 {
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
@@ -373,7 +373,7 @@ static void expect_reason(const lab_rig *rig, const char *reason)
   assert_contains(advice.text, reason);
 }
 
-static void test_lab_discriminate__no_command_moves_a_stem__says_why(void **state)
+TEST(test_lab_discriminate__no_command_moves_a_stem__says_why)
 {
   lab_rig rig = make_rig();
   rig.params.stroke = 0;
@@ -392,7 +392,7 @@ static void test_lab_discriminate__no_command_moves_a_stem__says_why(void **stat
   expect_reason(&rig, "does not move the stem");
 }
 
-static void test_lab_discriminate__inquiry_that_is_none__says_what_was_expected(void **state)
+TEST(test_lab_discriminate__inquiry_that_is_none__says_what_was_expected)
 {
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
@@ -410,7 +410,7 @@ static void test_lab_discriminate__inquiry_that_is_none__says_what_was_expected(
 
 /* ---- Intervals ---- */
 
-static void test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion(void **state)
+TEST(test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion)
 {
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
@@ -428,7 +428,7 @@ static void test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion
 
 /* What was found is to be known first, though a fitted value may be known less well; what is not, where nothing was
  * found. */
-static void test_lab_advise_precision__what_was_found__goes_first(void **state)
+TEST(test_lab_advise_precision__what_was_found__goes_first)
 {
   const lab_rig rig = make_rig();
   lab_advice_request q = make_inquiry(&rig);
@@ -450,7 +450,7 @@ static void test_lab_advise_precision__what_was_found__goes_first(void **state)
 }
 
 /* One parameter: information adds up, and that of the trial alone is the sum of squared slopes. */
-static void test_lab_advise_precision__one_parameter__is_the_information_of_both_records(void **state)
+TEST(test_lab_advise_precision__one_parameter__is_the_information_of_both_records)
 {
   static double y[LAB_FORECAST_CHANNELS * 1501], slope[LAB_FORECAST_CHANNELS * 1501];
   static const int only[] = {PNEU_PARAM_spring_rate};
@@ -492,7 +492,7 @@ static const lab_test_plan *find_trial(const char *text)
   return NULL;
 }
 
-static void test_lab_test_plans_build__hold_at_80_percent__stem_stands_there(void **state)
+TEST(test_lab_test_plans_build__hold_at_80_percent__stem_stands_there)
 {
   static double y[LAB_FORECAST_CHANNELS * 1501];
   const lab_rig rig = make_rig();
@@ -511,7 +511,7 @@ static void test_lab_test_plans_build__hold_at_80_percent__stem_stands_there(voi
   lab_forecast_close(&s.forecast);
 }
 
-static void test_lab_test_plans_build__both_actuators__every_template_in_order_of_time(void **state)
+TEST(test_lab_test_plans_build__both_actuators__every_template_in_order_of_time)
 {
   int actuator, i, k;
   for (actuator = 0; actuator < FIXTURE_ACTUATORS; actuator++) {
@@ -530,7 +530,7 @@ static void test_lab_test_plans_build__both_actuators__every_template_in_order_o
 }
 
 /* A small trickle of command meets a leak that lets as much out: the slow strokes cannot be done. */
-static void test_lab_test_plans_build__leak_as_large_as_a_slow_opening__leaves_slow_strokes_out(void **state)
+TEST(test_lab_test_plans_build__leak_as_large_as_a_slow_opening__leaves_slow_strokes_out)
 {
   lab_rig rig = make_rig();
   rig.params = with(&rig, param_of("chamber_leak"), 0.15 * (double)rig.params.fill_area);
@@ -539,7 +539,7 @@ static void test_lab_test_plans_build__leak_as_large_as_a_slow_opening__leaves_s
   find_trial("three full strokes");
 }
 
-static void test_trial_choose__ties__go_to_the_shortest(void **state)
+TEST(test_trial_choose__ties__go_to_the_shortest)
 {
   const double duration[] = {40, 10, 20, 5, 1};
   const double value[] = {50, 47, 46, 44, (double)NAN};
@@ -601,7 +601,7 @@ static double rest_by_gram_schmidt(void)
   return sqrt(sum);
 }
 
-static void test_lab_normal_rest__is_what_gram_schmidt_leaves(void **state)
+TEST(test_lab_normal_rest__is_what_gram_schmidt_leaves)
 {
   double rest;
   make_columns();
@@ -612,7 +612,7 @@ static void test_lab_normal_rest__is_what_gram_schmidt_leaves(void **state)
 }
 
 /* What tells the last column from the first is d itself: were that counted, nothing of d would be left. */
-static void test_lab_normal_rest__column_nearly_twice__counts_once(void **state)
+TEST(test_lab_normal_rest__column_nearly_twice__counts_once)
 {
   const int two[] = {0, 1};
   lab_normal part;
@@ -625,7 +625,7 @@ static void test_lab_normal_rest__column_nearly_twice__counts_once(void **state)
   assert_close(lab_normal_rest(&normal), lab_normal_rest(&part), 0, 1e-9);
 }
 
-static void test_lab_normal_select__any_order__takes_the_same_rows(void **state)
+TEST(test_lab_normal_select__any_order__takes_the_same_rows)
 {
   const double *const turned[] = {column[2], column[0], column[K]};
   const int keep[] = {2, 0};
@@ -643,7 +643,7 @@ static void test_lab_normal_select__any_order__takes_the_same_rows(void **state)
 }
 
 /* Squares of the rows, and of d once a combination of the columns is taken out, are those of the original ones. */
-static void test_lab_normal_rows__any_combination__is_as_long_as_that_of_the_columns(void **state)
+TEST(test_lab_normal_rows__any_combination__is_as_long_as_that_of_the_columns)
 {
   static double row[LAB_NORMAL_MAX + 1][LAB_NORMAL_MAX + 1];
   const double change[K] = {2, -0.3, 0.05};
@@ -673,7 +673,7 @@ static void test_lab_normal_rows__any_combination__is_as_long_as_that_of_the_col
 }
 
 /* J'J + 1/prior^2 = [[5, 2], [2, 2]], whose inverse is [[1/3, -1/3], [-1/3, 5/6]]. */
-static void test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse(void **state)
+TEST(test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse)
 {
   const double prior[] = {1, 1};
   double deviation[2];
@@ -688,31 +688,5 @@ static void test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse(v
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_discriminate__leak_or_droop__asks_for_a_hold_with_both_orifices_shut),
-      cmocka_unit_test(test_lab_discriminate__separation__is_what_an_independent_fit_to_both_records_leaves),
-      cmocka_unit_test(test_lab_discriminate__back_pressure_or_narrow_vent__fitted_to_the_end_of_the_valley),
-      cmocka_unit_test(test_lab_discriminate__estimates_too_large__best_of_the_settled_wins),
-      cmocka_unit_test(test_lab_discriminate__models_exchanged__same_advice),
-      cmocka_unit_test(test_lab_discriminate__one_model_twice__nothing_separates_it),
-      cmocka_unit_test(test_lab_discriminate__one_thing_under_two_names__nothing_separates_it),
-      cmocka_unit_test(test_lab_discriminate__lag_or_skew_of_position__says_that_no_schedule_and_no_sensor_does),
-      cmocka_unit_test(test_lab_discriminate__position_alone_too_little__names_the_sensor_to_add),
-      cmocka_unit_test(test_lab_discriminate__record_at_hand__is_judged_in_the_place_of_a_fill_and_vent),
-      cmocka_unit_test(test_lab_discriminate__no_command_moves_a_stem__says_why),
-      cmocka_unit_test(test_lab_discriminate__inquiry_that_is_none__says_what_was_expected),
-      cmocka_unit_test(test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion),
-      cmocka_unit_test(test_lab_advise_precision__what_was_found__goes_first),
-      cmocka_unit_test(test_lab_advise_precision__one_parameter__is_the_information_of_both_records),
-      cmocka_unit_test(test_lab_test_plans_build__hold_at_80_percent__stem_stands_there),
-      cmocka_unit_test(test_lab_test_plans_build__both_actuators__every_template_in_order_of_time),
-      cmocka_unit_test(test_lab_test_plans_build__leak_as_large_as_a_slow_opening__leaves_slow_strokes_out),
-      cmocka_unit_test(test_trial_choose__ties__go_to_the_shortest),
-      cmocka_unit_test(test_lab_normal_rest__is_what_gram_schmidt_leaves),
-      cmocka_unit_test(test_lab_normal_rest__column_nearly_twice__counts_once),
-      cmocka_unit_test(test_lab_normal_select__any_order__takes_the_same_rows),
-      cmocka_unit_test(test_lab_normal_rows__any_combination__is_as_long_as_that_of_the_columns),
-      cmocka_unit_test(test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

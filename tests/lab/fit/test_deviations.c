@@ -17,7 +17,7 @@ static void put(lab_unknowns *u, lab_fit_result *fit, int kind, int index, doubl
 
 /* A filter of 25 ms is five tolerances, a spring half as stiff again five, friction of three times its sheet four, and
  * a supply that loses 4 % two: by size alone the order would be another. */
-static void test_lab_deviations_find__begins_within_the_log__is_told_first(void **state)
+TEST(test_lab_deviations_find__begins_within_the_log__is_told_first)
 {
   static lab_unknowns u;
   static lab_fit_result fit;
@@ -50,7 +50,7 @@ static void test_lab_deviations_find__begins_within_the_log__is_told_first(void 
 }
 
 /* Rows of 30 ms, whose changes of the command are somewhere between two of them. */
-static void test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger(void **state)
+TEST(test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger)
 {
   static const double lag_of[] = {0.0149, 0.0151};
   const int lag = pneu_param_find("pressure_lag.pressure_time");
@@ -92,7 +92,7 @@ static void put_off(lab_rig *rig, lab_unknowns *u, lab_fit_result *fit, int para
 
 /* p is 2e-4, 0.016 and 0.037; of four values the limits are 0.0125, 0.025 and 0.0375 where one, two and three are told
  * (Benjamini and Hochberg 1995), so that the third goes with the first two and is not told beside one. */
-static void test_lab_deviations_find__several_are_off__small_ones_are_told_with_them(void **state)
+TEST(test_lab_deviations_find__several_are_off__small_ones_are_told_with_them)
 {
   static const double off[][4] = {{3.7, 2.4, 2.09, 0.3}, {3.7, 0.3, 2.09, 0.3}, {2.4, 0.3, 0.3, 0.3}};
   static const int params[] = {PNEU_PARAM_spring_rate, PNEU_PARAM_dry_friction, PNEU_PARAM_spring_preload,
@@ -117,7 +117,7 @@ static void test_lab_deviations_find__several_are_off__small_ones_are_told_with_
 
 /* A dead volume a tenth off is well within ten tolerances of 30 %; friction of twelve times its sheet is 22 of 50 %,
  * and the preload is at its bound. */
-static void test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_end_are_not_told(void **state)
+TEST(test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_end_are_not_told)
 {
   static const double trusted[] = {INFINITY, 10};
   static const int told[] = {3, 1};
@@ -142,7 +142,7 @@ static void test_lab_deviations_find__model_lacks_something__values_far_off_or_a
 
 /* A vent beside the fill orifice is off its sheet where their ratio has a tolerance; where the rig file only asks for
  * its size, it is an effect. */
-static void test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_ratio_is_known(void **state)
+TEST(test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_ratio_is_known)
 {
   static lab_unknowns u;
   static lab_fit_result fit;
@@ -165,7 +165,7 @@ static void test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_rati
 
 /* Friction is declared to half of itself: a value that the log knows to a quarter is taken as it is, of another all of
  * its interval has to be beyond that. */
-static void test_lab_deviation_of__value_hardly_known__is_beyond_where_all_of_its_interval_is(void **state)
+TEST(test_lab_deviation_of__value_hardly_known__is_beyond_where_all_of_its_interval_is)
 {
   static const struct {
     double found, half;
@@ -194,13 +194,5 @@ static void test_lab_deviation_of__value_hardly_known__is_beyond_where_all_of_it
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_deviations_find__begins_within_the_log__is_told_first),
-      cmocka_unit_test(test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger),
-      cmocka_unit_test(test_lab_deviations_find__several_are_off__small_ones_are_told_with_them),
-      cmocka_unit_test(test_lab_deviation_of__vent_beside_the_fill__is_one_where_their_ratio_is_known),
-      cmocka_unit_test(test_lab_deviation_of__value_hardly_known__is_beyond_where_all_of_its_interval_is),
-      cmocka_unit_test(test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_end_are_not_told),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -59,7 +59,7 @@ static double dot(const double *a, double (*b)(int), const double *c)
 }
 
 /* r'(1 + w w')^-1 r = r'r - (w'r)^2/(1 + w'w), by Sherman and Morrison. */
-static void test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_gives(void **state)
+TEST(test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_gives)
 {
   double r[ROWS], before[ROWS], w[ROWS], along, length2;
   uint64_t seed = 4;
@@ -78,7 +78,7 @@ static void test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_g
 }
 
 /* All of it but 1/(1 + w'w), which the prior takes. */
-static void test_lab_drift_strain__drift_of_seven_tolerances__is_found(void **state)
+TEST(test_lab_drift_strain__drift_of_seven_tolerances__is_found)
 {
   lab_unknowns *u = calloc(1, sizeof *u);
   double r[ROWS], w[ROWS], length2;
@@ -101,7 +101,7 @@ static void test_lab_drift_strain__drift_of_seven_tolerances__is_found(void **st
 
 /* A rig at rest whose sensor of pressure drifts by two tolerances, 1 kPa each, beside a noise of 320 Pa: the errors
  * that are shown are noise, without a prior's 1/(1 + w'w) of the line; those of a run without lines have it all. */
-static void test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_out(void **state)
+TEST(test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_out)
 {
   enum { LONG = 2001 };
   static const double t_cmd[] = {99}, u_cmd[] = {1}, spacing = 0.01, reach = 2000;
@@ -131,7 +131,7 @@ static void test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_ou
   free(u);
 }
 
-static void test_lab_drift_open__no_tolerance__takes_nothing(void **state)
+TEST(test_lab_drift_open__no_tolerance__takes_nothing)
 {
   double r[ROWS], before[ROWS];
   int i;
@@ -147,11 +147,5 @@ static void test_lab_drift_open__no_tolerance__takes_nothing(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_drift_take_out__any_residual__has_the_size_that_its_prior_gives),
-      cmocka_unit_test(test_lab_drift_strain__drift_of_seven_tolerances__is_found),
-      cmocka_unit_test(test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_out),
-      cmocka_unit_test(test_lab_drift_open__no_tolerance__takes_nothing),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -136,7 +136,7 @@ static void assert_regression(const trial *c, const double *theta)
   assert_close(theta[1], regression(c), 1e-4, 0);
 }
 
-static void test_lab_fit__line__is_the_regression_line(void **state)
+TEST(test_lab_fit__line__is_the_regression_line)
 {
   trial c = make_line();
   const lab_fit_problem p = problem_of(&c);
@@ -147,7 +147,7 @@ static void test_lab_fit__line__is_the_regression_line(void **state)
   assert_close(chi2, chi2_at(&c, best), 0.02, 1e-6);
 }
 
-static void test_lab_fit__bound_in_the_way__is_the_best_line_on_it(void **state)
+TEST(test_lab_fit__bound_in_the_way__is_the_best_line_on_it)
 {
   static const double bounded[] = {100, -0.75};
   trial c = make_line();
@@ -159,7 +159,7 @@ static void test_lab_fit__bound_in_the_way__is_the_best_line_on_it(void **state)
   assert_close(theta[0], mean(c.y) - bounded[1] * mean(c.t), 1e-4, 0);
 }
 
-static void test_lab_fit__bounds_on_all__ends_in_the_corner(void **state)
+TEST(test_lab_fit__bounds_on_all__ends_in_the_corner)
 {
   static const double least[] = {3.5, -0.3};
   trial c = make_line();
@@ -172,7 +172,7 @@ static void test_lab_fit__bounds_on_all__ends_in_the_corner(void **state)
   assert_close(chi2, chi2_at(&c, least), 0, 1e-12);
 }
 
-static void test_lab_fit__start_on_bounds__leaves_them(void **state)
+TEST(test_lab_fit__start_on_bounds__leaves_them)
 {
   static const double above[] = {9, 100}, below[] = {-100, -4};
   trial c = make_line();
@@ -192,7 +192,7 @@ static double valley(const double *theta, double t)
   return t == 0 ? 10 * (theta[1] - theta[0] * theta[0]) : t == 1 ? 1 - theta[0] : 0;
 }
 
-static void test_lab_fit__rosenbrock__follows_the_valley(void **state)
+TEST(test_lab_fit__rosenbrock__follows_the_valley)
 {
   trial c = make_rows(2, valley);
   const lab_fit_problem p = problem_of(&c);
@@ -203,7 +203,7 @@ static void test_lab_fit__rosenbrock__follows_the_valley(void **state)
   assert_close(chi2, chi2_at(&c, theta), 0, 1e-12);
 }
 
-static void test_lab_fit__one_step__is_on_the_way(void **state)
+TEST(test_lab_fit__one_step__is_on_the_way)
 {
   trial c = make_rows(2, valley);
   lab_fit_problem p = problem_of(&c);
@@ -219,7 +219,7 @@ static void test_lab_fit__one_step__is_on_the_way(void **state)
 /* ---- When it ends ---- */
 
 /* A thousandth off the regression line is 0.4 of chi-square. */
-static void test_lab_fit__near_enough__ends_at_once(void **state)
+TEST(test_lab_fit__near_enough__ends_at_once)
 {
   trial c = make_line();
   lab_fit_problem p = problem_of(&c);
@@ -246,7 +246,7 @@ static double logarithm(const double *theta, double t)
   return theta[0] > 0 ? log(theta[0]) + 0 * t : (double)NAN;
 }
 
-static void test_lab_fit__model_fails_beyond__stays_where_it_does_not(void **state)
+TEST(test_lab_fit__model_fails_beyond__stays_where_it_does_not)
 {
   trial c = {1, {0}, {0}, logarithm, 100, LAB_NUMERIC, -1, {0}, 0};
   const lab_fit_problem p = problem_of(&c);
@@ -255,7 +255,7 @@ static void test_lab_fit__model_fails_beyond__stays_where_it_does_not(void **sta
   assert_close(theta[0], 1, 1e-3, 0);
 }
 
-static void test_lab_fit__model_fails_at_start__says_so(void **state)
+TEST(test_lab_fit__model_fails_at_start__says_so)
 {
   trial c = {1, {0}, {0}, logarithm, 100, LAB_NUMERIC, -1, {0}, 0};
   const lab_fit_problem p = problem_of(&c);
@@ -273,7 +273,7 @@ static int hollow(void *context, const double *theta, double *r, lab_error *e)
   return LAB_OK;
 }
 
-static void test_lab_fit__residual_not_finite__is_named(void **state)
+TEST(test_lab_fit__residual_not_finite__is_named)
 {
   trial c = make_line();
   lab_fit_problem p = problem_of(&c);
@@ -283,7 +283,7 @@ static void test_lab_fit__residual_not_finite__is_named(void **state)
   assert_string_equal(error.text, "residual 5 of 40 is not finite");
 }
 
-static void test_lab_fit__any_other_failure__ends_it(void **state)
+TEST(test_lab_fit__any_other_failure__ends_it)
 {
   trial c = {1, {0}, {0}, logarithm, 100, LAB_WORLD, -1, {0}, 0};
   const lab_fit_problem p = problem_of(&c);
@@ -296,7 +296,7 @@ static void test_lab_fit__any_other_failure__ends_it(void **state)
   assert_string_equal(error.text, "no slope here");
 }
 
-static void test_lab_fit__slope_fails__leaves_that_unknown_where_it_is(void **state)
+TEST(test_lab_fit__slope_fails__leaves_that_unknown_where_it_is)
 {
   trial c = make_line();
   const lab_fit_problem p = problem_of(&c);
@@ -315,7 +315,7 @@ static double decay(const double *theta, double t)
 }
 
 /* Slopes are asked for less often than steps are taken, and the end is where the gradient is nought. */
-static void test_lab_fit__kept_slopes__end_where_new_ones_would(void **state)
+TEST(test_lab_fit__kept_slopes__end_where_new_ones_would)
 {
   trial c = {3, {0}, {0}, decay, 1000, LAB_NUMERIC, -1, {0}, 0};
   lab_fit_problem p = problem_of(&c);
@@ -343,7 +343,7 @@ static void test_lab_fit__kept_slopes__end_where_new_ones_would(void **state)
 
 /* What an earlier fit has left of the slopes is enough to come to the end; one that is brief does not check it, the
  * other asks for all of them once. */
-static void test_lab_fit__known_slopes__are_not_asked_for_before_the_end(void **state)
+TEST(test_lab_fit__known_slopes__are_not_asked_for_before_the_end)
 {
   trial c = make_line();
   double slopes[2 * ROWS], theta[] = {0, 0};
@@ -370,7 +370,7 @@ static void test_lab_fit__known_slopes__are_not_asked_for_before_the_end(void **
 }
 
 /* Slopes of another problem are found to be wrong. */
-static void test_lab_fit__known_slopes_that_are_wrong__are_renewed(void **state)
+TEST(test_lab_fit__known_slopes_that_are_wrong__are_renewed)
 {
   trial c = make_line();
   double slopes[2 * ROWS], theta[] = {0, 0};
@@ -385,7 +385,7 @@ static void test_lab_fit__known_slopes_that_are_wrong__are_renewed(void **state)
   assert_regression(&c, theta);
 }
 
-static void test_lab_fit__rough_model__has_new_slopes_at_every_step(void **state)
+TEST(test_lab_fit__rough_model__has_new_slopes_at_every_step)
 {
   trial c = {3, {0}, {0}, decay, 1000, LAB_NUMERIC, -1, {0}, 0}, again;
   lab_fit_problem p = problem_of(&c);
@@ -422,7 +422,7 @@ static lab_fit_problem wells_of(trial *c, int search)
   return p;
 }
 
-static void test_lab_fit__two_wells__search_finds_the_deeper(void **state)
+TEST(test_lab_fit__two_wells__search_finds_the_deeper)
 {
   trial c = make_rows(1, two_wells);
   int search;
@@ -442,7 +442,7 @@ static double one_well(const double *theta, double t)
   return theta[0] > 0.5 ? (double)NAN : two_wells(theta, t);
 }
 
-static void test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds(void **state)
+TEST(test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds)
 {
   trial c = make_rows(1, one_well);
   const lab_fit_problem p = wells_of(&c, 200);
@@ -461,7 +461,7 @@ static int quarters(void *context, const double *theta, double *r, lab_error *e)
   return LAB_OK;
 }
 
-static void test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more(void **state)
+TEST(test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more)
 {
   static double lower[LAB_FIT_MAX], upper[LAB_FIT_MAX], theta[LAB_FIT_MAX], r[LAB_FIT_MAX];
   const lab_fit_problem p = {.n = LAB_FIT_MAX,
@@ -486,7 +486,7 @@ static void test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more
 }
 
 /* The start is the best of all, and no point of the search is. */
-static void test_lab_fit__search_finds_nothing_better__goes_on_from_the_start(void **state)
+TEST(test_lab_fit__search_finds_nothing_better__goes_on_from_the_start)
 {
   trial c = make_rows(1, two_wells);
   lab_fit_problem p = wells_of(&c, 3);
@@ -495,7 +495,7 @@ static void test_lab_fit__search_finds_nothing_better__goes_on_from_the_start(vo
   assert_true(theta[0] == 0.99);
 }
 
-static void test_lab_fit__any_other_failure_in_the_search__ends_it_at_once(void **state)
+TEST(test_lab_fit__any_other_failure_in_the_search__ends_it_at_once)
 {
   trial c = make_rows(1, one_well);
   const lab_fit_problem p = wells_of(&c, 200);
@@ -509,7 +509,7 @@ static void test_lab_fit__any_other_failure_in_the_search__ends_it_at_once(void 
 
 /* ---- Linear equations ---- */
 
-static void test_lab_solve_positive__hilbert_matrix__gives_its_integer_inverse(void **state)
+TEST(test_lab_solve_positive__hilbert_matrix__gives_its_integer_inverse)
 {
   static const double inverse[3][3] = {{9, -36, 30}, {-36, 192, -180}, {30, -180, 180}};
   int i, j, k;
@@ -527,7 +527,7 @@ static void test_lab_solve_positive__hilbert_matrix__gives_its_integer_inverse(v
   }
 }
 
-static void test_lab_solve_positive__not_positive__is_refused(void **state)
+TEST(test_lab_solve_positive__not_positive__is_refused)
 {
   double saddle[] = {1, 2, 2, 1}, flat[] = {1, 1, 1, 1}, none[] = {1, 0, 0, NAN}, b[] = {1, 1};
   assert_int_equal(lab_solve_positive(2, 2, saddle, b), -1);
@@ -537,30 +537,5 @@ static void test_lab_solve_positive__not_positive__is_refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_fit__line__is_the_regression_line),
-      cmocka_unit_test(test_lab_fit__bound_in_the_way__is_the_best_line_on_it),
-      cmocka_unit_test(test_lab_fit__bounds_on_all__ends_in_the_corner),
-      cmocka_unit_test(test_lab_fit__start_on_bounds__leaves_them),
-      cmocka_unit_test(test_lab_fit__one_step__is_on_the_way),
-      cmocka_unit_test(test_lab_fit__near_enough__ends_at_once),
-      cmocka_unit_test(test_lab_fit__rosenbrock__follows_the_valley),
-      cmocka_unit_test(test_lab_fit__model_fails_beyond__stays_where_it_does_not),
-      cmocka_unit_test(test_lab_fit__model_fails_at_start__says_so),
-      cmocka_unit_test(test_lab_fit__any_other_failure__ends_it),
-      cmocka_unit_test(test_lab_fit__slope_fails__leaves_that_unknown_where_it_is),
-      cmocka_unit_test(test_lab_fit__kept_slopes__end_where_new_ones_would),
-      cmocka_unit_test(test_lab_fit__known_slopes__are_not_asked_for_before_the_end),
-      cmocka_unit_test(test_lab_fit__known_slopes_that_are_wrong__are_renewed),
-      cmocka_unit_test(test_lab_fit__rough_model__has_new_slopes_at_every_step),
-      cmocka_unit_test(test_lab_fit__two_wells__search_finds_the_deeper),
-      cmocka_unit_test(test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds),
-      cmocka_unit_test(test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more),
-      cmocka_unit_test(test_lab_fit__search_finds_nothing_better__goes_on_from_the_start),
-      cmocka_unit_test(test_lab_fit__any_other_failure_in_the_search__ends_it_at_once),
-      cmocka_unit_test(test_lab_fit__residual_not_finite__is_named),
-      cmocka_unit_test(test_lab_solve_positive__hilbert_matrix__gives_its_integer_inverse),
-      cmocka_unit_test(test_lab_solve_positive__not_positive__is_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -63,6 +63,8 @@ static int close_log(void **state)
   return 0;
 }
 
+#define CASE(name) TEST_WITH(name, open_log, close_log)
+
 static void take(size_t expected)
 {
   if (lab_outliers_take(&u, &run_log, &out, &error))
@@ -72,13 +74,13 @@ static void take(size_t expected)
 
 /* ---- What is taken ---- */
 
-static void test_lab_outliers_take__log_of_the_model__has_none(void **state)
+CASE(test_lab_outliers_take__log_of_the_model__has_none)
 {
   take(0);
   assert_int_equal(out.limitations.n, 0);
 }
 
-static void test_lab_outliers_take__beyond_seven_deviations__is_taken(void **state)
+CASE(test_lab_outliers_take__beyond_seven_deviations__is_taken)
 {
   p[100] += 8 * sigma_p; /* in a stroke */
   x[300] -= 8 * sigma_x;
@@ -89,7 +91,7 @@ static void test_lab_outliers_take__beyond_seven_deviations__is_taken(void **sta
   assert_false(isnan(p[50]));
 }
 
-static void test_lab_outliers_take__in_other_noise__has_its_size_for_measure(void **state)
+CASE(test_lab_outliers_take__in_other_noise__has_its_size_for_measure)
 {
   int i;
   for (i = 0; i < ROWS; i++)
@@ -100,7 +102,7 @@ static void test_lab_outliers_take__in_other_noise__has_its_size_for_measure(voi
   assert_true(isnan(p[250]));
 }
 
-static void test_lab_outliers_take__two_side_by_side__are_both_taken(void **state)
+CASE(test_lab_outliers_take__two_side_by_side__are_both_taken)
 {
   p[100] += 30 * sigma_p;
   p[101] += 50 * sigma_p;
@@ -110,7 +112,7 @@ static void test_lab_outliers_take__two_side_by_side__are_both_taken(void **stat
   assert_true(isnan(p[100]) && isnan(p[101]) && isnan(x[299]) && isnan(x[301]));
 }
 
-static void test_lab_outliers_take__soon_after_a_command__are_counted(void **state)
+CASE(test_lab_outliers_take__soon_after_a_command__are_counted)
 {
   x[OPENED + 4] += 30 * sigma_x;
   x[OPENED + 5] += 20 * sigma_x;
@@ -121,7 +123,7 @@ static void test_lab_outliers_take__soon_after_a_command__are_counted(void **sta
 
 /* ---- What is not ---- */
 
-static void test_lab_outliers_take__three_rows__may_be_an_effect(void **state)
+CASE(test_lab_outliers_take__three_rows__may_be_an_effect)
 {
   p[100] += 30 * sigma_p;
   p[101] += 30 * sigma_p;
@@ -129,7 +131,7 @@ static void test_lab_outliers_take__three_rows__may_be_an_effect(void **state)
   take(0);
 }
 
-static void test_lab_outliers_take__a_step__stays(void **state)
+CASE(test_lab_outliers_take__a_step__stays)
 {
   int i;
   for (i = 150; i < ROWS; i++)
@@ -137,7 +139,7 @@ static void test_lab_outliers_take__a_step__stays(void **state)
   take(0);
 }
 
-static void test_lab_outliers_take__misfit_at_the_corners__stays(void **state)
+CASE(test_lab_outliers_take__misfit_at_the_corners__stays)
 {
   rig.params.spring_preload *= (pneu_real)1.1;
   rig.params.dry_friction *= (pneu_real)0.5;
@@ -146,7 +148,7 @@ static void test_lab_outliers_take__misfit_at_the_corners__stays(void **state)
 }
 
 /* A peak of one row that only the model has is its mistake. */
-static void test_lab_outliers_take__a_peak_of_the_model__is_no_outlier(void **state)
+CASE(test_lab_outliers_take__a_peak_of_the_model__is_no_outlier)
 {
   run_log.value[LAB_CHANNEL_U][100] = -1; /* vents for one row */
   run_log.value[LAB_CHANNEL_U][101] = 1;
@@ -156,7 +158,7 @@ static void test_lab_outliers_take__a_peak_of_the_model__is_no_outlier(void **st
   take(0);
 }
 
-static void test_lab_outliers_take__a_converter_that_flickers__stays(void **state)
+CASE(test_lab_outliers_take__a_converter_that_flickers__stays)
 {
   const double step = 20 * sigma_x;
   int i;
@@ -166,7 +168,7 @@ static void test_lab_outliers_take__a_converter_that_flickers__stays(void **stat
   take(0);
 }
 
-static void test_lab_outliers_take__more_than_a_fiftieth__stays(void **state)
+CASE(test_lab_outliers_take__more_than_a_fiftieth__stays)
 {
   int i;
   for (i = 5; i < 8 * 40; i += 40)
@@ -177,7 +179,7 @@ static void test_lab_outliers_take__more_than_a_fiftieth__stays(void **state)
   take(0);
 }
 
-static void test_lab_outliers_take__a_gap__is_none(void **state)
+CASE(test_lab_outliers_take__a_gap__is_none)
 {
   p[100] = p[101] = (double)NAN;
   p[103] += 50 * sigma_p;
@@ -187,7 +189,7 @@ static void test_lab_outliers_take__a_gap__is_none(void **state)
 
 /* ---- What is said, and put back ---- */
 
-static void test_lab_outliers_take__says__how_many_and_where(void **state)
+CASE(test_lab_outliers_take__says__how_many_and_where)
 {
   p[100] += 30 * sigma_p;
   p[300] += 30 * sigma_p;
@@ -200,7 +202,7 @@ static void test_lab_outliers_take__says__how_many_and_where(void **state)
   assert_contains(out.limitations.text[1], "line 352 (t = 3.5 s)");
 }
 
-static void test_lab_outliers_put_back__after_two_takes__is_as_before(void **state)
+CASE(test_lab_outliers_put_back__after_two_takes__is_as_before)
 {
   double before[ROWS];
   p[100] += 30 * sigma_p;
@@ -215,25 +217,7 @@ static void test_lab_outliers_put_back__after_two_takes__is_as_before(void **sta
   assert_memory_equal(before, p, sizeof p);
 }
 
-#define TEST(f) cmocka_unit_test_setup_teardown(f, open_log, close_log)
-
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      TEST(test_lab_outliers_take__log_of_the_model__has_none),
-      TEST(test_lab_outliers_take__beyond_seven_deviations__is_taken),
-      TEST(test_lab_outliers_take__in_other_noise__has_its_size_for_measure),
-      TEST(test_lab_outliers_take__two_side_by_side__are_both_taken),
-      TEST(test_lab_outliers_take__soon_after_a_command__are_counted),
-      TEST(test_lab_outliers_take__three_rows__may_be_an_effect),
-      TEST(test_lab_outliers_take__a_step__stays),
-      TEST(test_lab_outliers_take__misfit_at_the_corners__stays),
-      TEST(test_lab_outliers_take__a_peak_of_the_model__is_no_outlier),
-      TEST(test_lab_outliers_take__a_converter_that_flickers__stays),
-      TEST(test_lab_outliers_take__more_than_a_fiftieth__stays),
-      TEST(test_lab_outliers_take__a_gap__is_none),
-      TEST(test_lab_outliers_take__says__how_many_and_where),
-      TEST(test_lab_outliers_put_back__after_two_takes__is_as_before),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -85,7 +85,7 @@ static void fit(const trial *c, double *theta)
 
 /* ---- Quantiles ---- */
 
-static void test_student_quantile__tables__agree(void **state)
+TEST(test_student_quantile__tables__agree)
 {
   /* closed forms: 1 degree of freedom is Cauchy's tan(pi (p - 1/2)); with 2, (2p - 1)/sqrt(2 p (1 - p)) */
   assert_close(lab_student_quantile(0.975, 1), tan(3.14159265358979323846 * 0.475), 0, 1e-11);
@@ -176,7 +176,7 @@ static void check_line(const double *at, const double *theta, const double inver
   assert_string_equal(got.undetermined, "");
 }
 
-static void test_lab_fit_spread__line__weighted_and_normal(void **state)
+TEST(test_lab_fit_spread__line__weighted_and_normal)
 {
   line data = make_line();
   const trial c = trial_of(&data);
@@ -187,7 +187,7 @@ static void test_lab_fit_spread__line__weighted_and_normal(void **state)
   check_line(at, theta, inverse, chi2, 1);
 }
 
-static void test_lab_fit_spread__more_left_than_noise__wider_by_its_size(void **state)
+TEST(test_lab_fit_spread__more_left_than_noise__wider_by_its_size)
 {
   line data = make_line();
   const trial c = trial_of(&data);
@@ -223,7 +223,7 @@ static int mean_residuals(void *context, const double *theta, double *r, lab_err
   return LAB_OK;
 }
 
-static void test_lab_fit_spread__left_in_stretches__as_few_values_as_there_are_stretches(void **state)
+TEST(test_lab_fit_spread__left_in_stretches__as_few_values_as_there_are_stretches)
 {
   static int sizes[] = {8, 50};
   double theta[MOST];
@@ -237,7 +237,7 @@ static void test_lab_fit_spread__left_in_stretches__as_few_values_as_there_are_s
   }
 }
 
-static void test_lab_fit_spread__most_unknowns__each_is_as_its_own_value_says(void **state)
+TEST(test_lab_fit_spread__most_unknowns__each_is_as_its_own_value_says)
 {
   static trial c = {.m = MOST, .model = quarter, .step = 1e-3};
   double at[MOST];
@@ -264,7 +264,7 @@ static int valley(void *data, const double *theta, double *r, lab_error *e)
   return LAB_OK;
 }
 
-static void test_lab_fit_spread__bound_active__is_said_and_the_other_alone_is_free(void **state)
+TEST(test_lab_fit_spread__bound_active__is_said_and_the_other_alone_is_free)
 {
   trial c = {.m = 2, .model = valley, .step = 1e-5};
   double at[2];
@@ -303,7 +303,7 @@ static void check_one_side(double lower, double upper, int state)
                0.05, 1e-6, 0);
 }
 
-static void test_lab_fit_spread__bound_active__interval_on_one_side(void **state)
+TEST(test_lab_fit_spread__bound_active__interval_on_one_side)
 {
   check_one_side(-0.49, 3, LAB_STATE_AT_LOWER);
   check_one_side(-0.40, 3, LAB_STATE_AT_LOWER);
@@ -323,7 +323,7 @@ static int product(void *context, const double *theta, double *r, lab_error *e)
   return LAB_OK;
 }
 
-static void test_lab_fit_spread__product_of_two__pair_named(void **state)
+TEST(test_lab_fit_spread__product_of_two__pair_named)
 {
   line data = make_line();
   trial c = {.m = LINE, .model = product, .data = &data, .sigma = data.sigma, .step = 1e-4};
@@ -421,7 +421,7 @@ static void make_bench(const double *truth, uint64_t seed, bench *data)
   }
 }
 
-static void test_lab_fit_spread__library_with_noise__recovers_within_its_intervals(void **state)
+TEST(test_lab_fit_spread__library_with_noise__recovers_within_its_intervals)
 {
   static const double truth[4] = {0.893e-6, 480, 4e5, 0.01};
   enum { SEEDS = 8 };
@@ -455,7 +455,7 @@ static int none(void *data, const double *theta, double *r, lab_error *e)
   return lab_fail(e, LAB_NUMERIC, "no model here");
 }
 
-static void test_lab_fit_spread__model_fails__says_so(void **state)
+TEST(test_lab_fit_spread__model_fails__says_so)
 {
   trial c = {.n = 1, .m = 2, .model = none, .upper = {1}};
   const lab_fit_problem problem = {
@@ -466,17 +466,5 @@ static void test_lab_fit_spread__model_fails__says_so(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_student_quantile__tables__agree),
-      cmocka_unit_test(test_lab_fit_spread__line__weighted_and_normal),
-      cmocka_unit_test(test_lab_fit_spread__more_left_than_noise__wider_by_its_size),
-      cmocka_unit_test(test_lab_fit_spread__left_in_stretches__as_few_values_as_there_are_stretches),
-      cmocka_unit_test(test_lab_fit_spread__most_unknowns__each_is_as_its_own_value_says),
-      cmocka_unit_test(test_lab_fit_spread__bound_active__is_said_and_the_other_alone_is_free),
-      cmocka_unit_test(test_lab_fit_spread__bound_active__interval_on_one_side),
-      cmocka_unit_test(test_lab_fit_spread__product_of_two__pair_named),
-      cmocka_unit_test(test_lab_fit_spread__library_with_noise__recovers_within_its_intervals),
-      cmocka_unit_test(test_lab_fit_spread__model_fails__says_so),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

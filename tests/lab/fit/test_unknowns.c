@@ -153,7 +153,7 @@ static double size_of(const double *value, size_t n)
 
 /* ---- What there is to find ---- */
 
-static void test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches(void **state)
+TEST(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches)
 {
   static const char *const name[USUAL] = {"dry_friction", "orifice_area.1", "orifice_area.2", "spring_rate",
                                           "switch_1.1",   "switch_1.2",     "switch_2.1",     "switch_2.2"};
@@ -175,7 +175,7 @@ static void test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches(vo
 }
 
 /* Known to a tolerance in each run, and no nuisance that all share; a default of a kind is none. */
-static void test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_each_run(void **state)
+TEST(test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_each_run)
 {
   int k;
   declare();
@@ -197,7 +197,7 @@ static void test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_e
 }
 
 /* Of 3 and 6: 4.5. How far another may be from that two do not say: that of 3, 6 and 9 would be sqrt(9 (1 + 1/3)). */
-static void test_lab_unknowns_expected__own_values__are_their_mean_and_spread(void **state)
+TEST(test_lab_unknowns_expected__own_values__are_their_mean_and_spread)
 {
   lab_rig next;
   open_usual();
@@ -220,7 +220,7 @@ static void test_lab_unknowns_expected__own_values__are_their_mean_and_spread(vo
 
 /* Ten tolerances of 50 % are the most, also of what is added later; of what is declared as none there is no such end.
  */
-static void test_lab_unknowns_stay_near__far_more_than_declared__is_ten_tolerances_off(void **state)
+TEST(test_lab_unknowns_stay_near__far_more_than_declared__is_ten_tolerances_off)
 {
   const double upper = (double)lab_param_info(PNEU_PARAM_damping).upper;
   double declared;
@@ -255,7 +255,7 @@ static void put(int param, double times)
 }
 
 /* Of several values far off one at least was said to be known, and what one cause moves together is one. */
-static void test_lab_candidate_is_far__values_of_two_causes_one_not_fitted__is_far(void **state)
+TEST(test_lab_candidate_is_far__values_of_two_causes_one_not_fitted__is_far)
 {
   declare();
   fit_list("spring_rate", 0);
@@ -279,7 +279,7 @@ static void test_lab_candidate_is_far__values_of_two_causes_one_not_fitted__is_f
 }
 
 /* A value that runs away towards nothing is as far off. */
-static void test_lab_unknowns_is_far__a_tenth_of_an_area__is_far(void **state)
+TEST(test_lab_unknowns_is_far__a_tenth_of_an_area__is_far)
 {
   declare();
   fit_list("area", 0);
@@ -293,7 +293,7 @@ static void test_lab_unknowns_is_far__a_tenth_of_an_area__is_far(void **state)
   close_all();
 }
 
-static void test_lab_unknowns_open__switches__lie_within_their_brackets(void **state)
+TEST(test_lab_unknowns_open__switches__lie_within_their_brackets)
 {
   int j;
   open_usual();
@@ -311,7 +311,7 @@ static void test_lab_unknowns_open__switches__lie_within_their_brackets(void **s
     assert_close(u.unknown[j].spread, 0, 0, 0); /* nothing is known of the others */
 }
 
-static void test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost(void **state)
+TEST(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost)
 {
   int j;
   open_usual();
@@ -326,7 +326,7 @@ static void test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_
 }
 
 /* Damping and viscous friction are one coefficient: the one known less well is held, and none beside the other. */
-static void test_lab_unknowns_hold__damping_and_viscous_friction__are_one(void **state)
+TEST(test_lab_unknowns_hold__damping_and_viscous_friction__are_one)
 {
   declare();
   rig.params.damping = 900;
@@ -343,7 +343,7 @@ static void test_lab_unknowns_hold__damping_and_viscous_friction__are_one(void *
 }
 
 /* What was held stays in the model as it is; a lag that is too short to act, held or fitted, is none. */
-static void test_lab_unknowns_settle__lag_that_does_not_act__is_none(void **state)
+TEST(test_lab_unknowns_settle__lag_that_does_not_act__is_none)
 {
   const int lag = pneu_param_find("position_lag.position_time"), late = pneu_param_find("pressure_lag.pressure_time");
   int held;
@@ -366,7 +366,7 @@ static void test_lab_unknowns_settle__lag_that_does_not_act__is_none(void **stat
 
 /* An actuator larger by half in all that is fitted or held shows the same: the fit ends at the size that is declared.
  */
-static void test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_declared(void **state)
+TEST(test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_declared)
 {
   static const int grown[] = {PNEU_PARAM_area,        PNEU_PARAM_dead_volume,  PNEU_PARAM_spring_rate,
                               PNEU_PARAM_moving_mass, PNEU_PARAM_dry_friction, PNEU_PARAM_damping,
@@ -395,7 +395,7 @@ static void test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_decl
 }
 
 /* Beside an error of many times the noise, priors of what is held count as if that were the noise; others do not. */
-static void test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_what_is_left(void **state)
+TEST(test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_what_is_left)
 {
   double misfit;
   int j, k;
@@ -422,7 +422,7 @@ static void test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_co
 /* A zero of each log in a model that errs by many times the noise: it is where the sum of squares is least if its
  * tolerance counts by what is left (some per cent less than before the fit, by which it counted), and so a few
  * tolerances off and not hundreds. */
-static void test_lab_unknowns_fit__own_value_in_a_model_that_errs__counts_by_what_is_left(void **state)
+TEST(test_lab_unknowns_fit__own_value_in_a_model_that_errs__counts_by_what_is_left)
 {
   const double tolerance = 2 * sigma_x;
   double slope, misfit;
@@ -449,7 +449,7 @@ static void test_lab_unknowns_fit__own_value_in_a_model_that_errs__counts_by_wha
   }
 }
 
-static void test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone(void **state)
+TEST(test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone)
 {
   declare();
   open_empty();
@@ -469,7 +469,7 @@ static void open_alternating(int rows)
 }
 
 /* An instant for each change where there are ten rows for each, and else one share of a row for all of them. */
-static void test_lab_unknowns_open__command_that_changes_often__has_one_timing(void **state)
+TEST(test_lab_unknowns_open__command_that_changes_often__has_one_timing)
 {
   const lab_unknown *all = &u.unknown[SWITCHES];
   declare();
@@ -489,7 +489,7 @@ static void test_lab_unknowns_open__command_that_changes_often__has_one_timing(v
 }
 
 /* ... and that share brings all changes forward by as much of the row before each. */
-static void test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_timing(void **state)
+TEST(test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_timing)
 {
   double early[20], y[2 * ROWS];
   size_t k;
@@ -511,7 +511,7 @@ static void test_lab_unknowns_residuals__command_that_changes_often__is_matched_
 }
 
 /* Nothing fitted: commands at the rows that show them, the fit list as declared. */
-static void test_lab_unknowns_none__commands_at_their_rows__leave_nothing(void **state)
+TEST(test_lab_unknowns_none__commands_at_their_rows__leave_nothing)
 {
   static const double prompt[SWITCHES] = {0, 0};
   int k;
@@ -526,7 +526,7 @@ static void test_lab_unknowns_none__commands_at_their_rows__leave_nothing(void *
   assert_all_zero(r, DATA);
 }
 
-static void test_lab_unknowns_add__parameter__is_in_the_model_with_its_scale(void **state)
+TEST(test_lab_unknowns_add__parameter__is_in_the_model_with_its_scale)
 {
   const lab_unknown *added = &u.unknown[USUAL];
   open_usual();
@@ -541,7 +541,7 @@ static void test_lab_unknowns_add__parameter__is_in_the_model_with_its_scale(voi
   assert_int_equal(lab_unknowns_find(&u, index_of("moving_mass")), USUAL);
 }
 
-static void test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size(void **state)
+TEST(test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size)
 {
   const int param = index_of("pressure_bias.pressure_bias");
   pneu_param_info info;
@@ -553,7 +553,7 @@ static void test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size(void 
   assert_close(u.unknown[USUAL].upper, info.upper, 0, 0);
 }
 
-static void test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them(void **state)
+TEST(test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them)
 {
   open_usual();
   assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 1e9, &error), LAB_OK);
@@ -563,7 +563,7 @@ static void test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them(void **st
   assert_close(u.unknown[USUAL + 1].value, 0, 0, 0);
 }
 
-static void test_lab_unknowns_add__no_room__is_refused(void **state)
+TEST(test_lab_unknowns_add__no_room__is_refused)
 {
   int j;
   open_usual();
@@ -574,7 +574,7 @@ static void test_lab_unknowns_add__no_room__is_refused(void **state)
   assert_int_equal(u.n, LAB_FIT_MAX);
 }
 
-static void test_lab_unknowns_drop__one_between_others__leaves_these_in_order(void **state)
+TEST(test_lab_unknowns_drop__one_between_others__leaves_these_in_order)
 {
   const int bias = index_of("pressure_bias.pressure_bias"), excess = index_of("stribeck_friction.stribeck_excess"),
             velocity = index_of("stribeck_friction.stribeck_velocity");
@@ -595,7 +595,7 @@ static void test_lab_unknowns_drop__one_between_others__leaves_these_in_order(vo
   assert_close(param_of(&u.rig, "stribeck_friction.stribeck_excess"), 0.3, 0, 1e-12);
 }
 
-static void test_lab_unknowns_find__what_is_not_there__is_not_found(void **state)
+TEST(test_lab_unknowns_find__what_is_not_there__is_not_found)
 {
   open_usual();
   assert_int_equal(lab_unknowns_find(&u, index_of("dry_friction")), FRICTION);
@@ -610,7 +610,7 @@ static void test_lab_unknowns_find__what_is_not_there__is_not_found(void **state
 
 static const pneu_term bump = {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 5, 0, (pneu_real)0.02, {0, 10, 40, 10, 0}};
 
-static void test_lab_unknowns_add_term__free_ends__has_all_its_knots(void **state)
+TEST(test_lab_unknowns_add_term__free_ends__has_all_its_knots)
 {
   char name[32];
   int i;
@@ -634,7 +634,7 @@ static void test_lab_unknowns_add_term__free_ends__has_all_its_knots(void **stat
   }
 }
 
-static void test_lab_unknowns_add_term__held_ends__keep_their_values(void **state)
+TEST(test_lab_unknowns_add_term__held_ends__keep_their_values)
 {
   lab_rig model;
   int i;
@@ -655,7 +655,7 @@ static void test_lab_unknowns_add_term__held_ends__keep_their_values(void **stat
   }
 }
 
-static void test_lab_unknowns_drop_term__the_last_one__takes_its_knots_alone(void **state)
+TEST(test_lab_unknowns_drop_term__the_last_one__takes_its_knots_alone)
 {
   open_usual();
   assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
@@ -679,7 +679,7 @@ static void assert_no_room(const pneu_term *term)
   assert_int_equal(u.n, LAB_FIT_MAX - 4);
 }
 
-static void test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it_is(void **state)
+TEST(test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it_is)
 {
   int k;
   open_usual();
@@ -697,7 +697,7 @@ static const pneu_term wave = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 4,
                                (pneu_real)0.25, (pneu_real)0.75,      {80, -60, 10, 5}};
 
 /* Of the period matters what turns the phase at the end, after 4 s, by a radian. */
-static void test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period(void **state)
+TEST(test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period)
 {
   const lab_unknown *period = &u.unknown[USUAL + 4];
   int i;
@@ -722,7 +722,7 @@ static void test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period
   assert_close(period->spread, 0, 0, 0);
 }
 
-static void test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone(void **state)
+TEST(test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone)
 {
   lab_rig model;
   open_usual();
@@ -738,7 +738,7 @@ static void test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone(voi
   assert_memory_equal(model.term[1].value, wave.value, sizeof wave.value);
 }
 
-static void test_lab_unknowns_drop_term__cycle__takes_its_period_along(void **state)
+TEST(test_lab_unknowns_drop_term__cycle__takes_its_period_along)
 {
   open_usual();
   assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
@@ -753,7 +753,7 @@ static void test_lab_unknowns_drop_term__cycle__takes_its_period_along(void **st
 }
 
 /* Four amplitudes would have room, their period has not. */
-static void test_lab_unknowns_add_term__no_room_for_the_period__is_refused(void **state)
+TEST(test_lab_unknowns_add_term__no_room_for_the_period__is_refused)
 {
   assert_no_room(&wave);
   lab_unknowns_drop(&u, index_of("moving_mass"));
@@ -765,7 +765,7 @@ static void test_lab_unknowns_add_term__no_room_for_the_period__is_refused(void 
 
 /* ---- Into a model ---- */
 
-static void test_lab_unknowns_apply__all_experiments__has_shared_values_only(void **state)
+TEST(test_lab_unknowns_apply__all_experiments__has_shared_values_only)
 {
   const double given[USUAL] = {600, 1.5, 0.5, 3e5, 0, 0, 0, 0};
   lab_rig model;
@@ -778,7 +778,7 @@ static void test_lab_unknowns_apply__all_experiments__has_shared_values_only(voi
 }
 
 /* However often: a factor is one of the declared area, not of the latest. */
-static void test_lab_unknowns_apply__one_experiment__has_its_own_values_too(void **state)
+TEST(test_lab_unknowns_apply__one_experiment__has_its_own_values_too)
 {
   const double given[USUAL] = {600, 1.5, 0.5, 3e5, 0, 0, 0, 0};
   lab_rig model;
@@ -797,7 +797,7 @@ static void test_lab_unknowns_apply__one_experiment__has_its_own_values_too(void
 
 /* ---- Residuals ---- */
 
-static void test_lab_unknowns_residuals__log_of_the_model_itself__are_zero(void **state)
+TEST(test_lab_unknowns_residuals__log_of_the_model_itself__are_zero)
 {
   size_t window;
   open_measured();
@@ -810,7 +810,7 @@ static void test_lab_unknowns_residuals__log_of_the_model_itself__are_zero(void 
   assert_int_equal(window, 0);
 }
 
-static void test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_stem(void **state)
+TEST(test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_stem)
 {
   size_t window;
   int i;
@@ -824,7 +824,7 @@ static void test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_st
 }
 
 /* Measured less predicted, over noise, channel by channel, run after run. */
-static void test_lab_unknowns_residuals__known_errors__are_over_the_noise(void **state)
+TEST(test_lab_unknowns_residuals__known_errors__are_over_the_noise)
 {
   const int at[] = {5, 50, 7};
   open_measured();
@@ -838,7 +838,7 @@ static void test_lab_unknowns_residuals__known_errors__are_over_the_noise(void *
   assert_close(size_of(r, u.m) * sqrt((double)u.m), sqrt(8.25), 1e-9, 0); /* and nothing else */
 }
 
-static void test_lab_unknowns_residuals__gap__counts_nothing(void **state)
+TEST(test_lab_unknowns_residuals__gap__counts_nothing)
 {
   open_measured();
   p[30] = x[ROWS + 40] = NAN;
@@ -847,7 +847,7 @@ static void test_lab_unknowns_residuals__gap__counts_nothing(void **state)
 }
 
 /* Nine values of each channel of a run 2 and 3 standard deviations off, and a gap in each, which is no value. */
-static void test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_that_are_there(void **state)
+TEST(test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_that_are_there)
 {
   const double n = RUNS * ROWS - 1;
   lab_errors errors;
@@ -869,7 +869,7 @@ static void test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_tha
 }
 
 /* A run is measured with each its orifices; in each other's place they fit neither. */
-static void test_lab_unknowns_residuals__own_values__belong_to_their_log(void **state)
+TEST(test_lab_unknowns_residuals__own_values__belong_to_their_log)
 {
   static const double factor[RUNS] = {1.2, 0.9}, early[SWITCHES] = {0.025, 0.025};
   int k;
@@ -891,7 +891,7 @@ static void test_lab_unknowns_residuals__own_values__belong_to_their_log(void **
   assert_true(size_of(r + 2 * ROWS, 2 * ROWS) > 10);
 }
 
-static void test_lab_unknowns_residuals__switch_off_its_middle__is_paid_for(void **state)
+TEST(test_lab_unknowns_residuals__switch_off_its_middle__is_paid_for)
 {
   open_measured();
   lab_unknowns_values(&u, theta);
@@ -905,7 +905,7 @@ static void test_lab_unknowns_residuals__switch_off_its_middle__is_paid_for(void
 }
 
 /* Instants that are known to have been at their rows or before. */
-static void test_lab_unknowns_residuals__commands_that_were_early__are_matched_by_their_switches(void **state)
+TEST(test_lab_unknowns_residuals__commands_that_were_early__are_matched_by_their_switches)
 {
   static const double early[RUNS][SWITCHES] = {{0, 0.05}, {0.031, 0.007}};
   int k;
@@ -922,7 +922,7 @@ static void test_lab_unknowns_residuals__commands_that_were_early__are_matched_b
 
 /* The second channel of the second run remembers 0.6: r_i = (e_i - 0.6 e_(i-1))/0.8, over a gap 0.36 of the row before
  * it. */
-static void test_lab_unknowns_residuals__noise_with_memory__are_whitened(void **state)
+TEST(test_lab_unknowns_residuals__noise_with_memory__are_whitened)
 {
   enum { GAP = 33 };
   double *white = r + 3 * ROWS, *error_of = other + 3 * ROWS;
@@ -947,7 +947,7 @@ static void test_lab_unknowns_residuals__noise_with_memory__are_whitened(void **
 }
 
 /* A model in the place of the present one; what each run has for itself still applies. */
-static void test_lab_unknowns_residuals_with__another_model__takes_its_shared_values(void **state)
+TEST(test_lab_unknowns_residuals_with__another_model__takes_its_shared_values)
 {
   lab_rig model;
   open_measured();
@@ -963,7 +963,7 @@ static void test_lab_unknowns_residuals_with__another_model__takes_its_shared_va
 }
 
 /* Channel by channel, run after run, what coarse.h makes of a channel and its prediction. */
-static void test_lab_unknowns_view__windows__has_the_coarse_residuals(void **state)
+TEST(test_lab_unknowns_view__windows__has_the_coarse_residuals)
 {
   enum { WINDOW = 20 };
   const size_t n = 2 * lab_windowed_count(ROWS, WINDOW);
@@ -995,7 +995,7 @@ static void test_lab_unknowns_view__windows__has_the_coarse_residuals(void **sta
 
 /* A gain adds its share of every pressure: -p/sigma there, up to 1300, 0 elsewhere; but for what the stepper leaves,
  * 1e-9 of full scale over the noise and a step of 2e-5. */
-static void test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_noise(void **state)
+TEST(test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_noise)
 {
   const int gain = index_of("pressure_gain.pressure_gain");
   int i;
@@ -1016,7 +1016,7 @@ static void test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_no
 }
 
 /* What is known of a switch beforehand: -1/spread in its own row. */
-static void test_lab_unknowns_slope__switch__has_its_prior(void **state)
+TEST(test_lab_unknowns_slope__switch__has_its_prior)
 {
   int j;
   open_measured();
@@ -1054,7 +1054,7 @@ static void difference(int j, double up, double down, double *quotient)
 }
 
 /* Beside a central difference over ten times the step; of an instant, beside the change over its own step. */
-static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference(void **state)
+TEST(test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference)
 {
   int j;
   open_closely();
@@ -1071,7 +1071,7 @@ static void test_lab_unknowns_slope__every_unknown__is_that_of_a_second_differen
 }
 
 /* From one run with steps of 1e-5, beside a central difference of exact ones; what is done already stays. */
-static void test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_difference(void **state)
+TEST(test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_difference)
 {
   static double J[LAB_FIT_MAX * (DATA + LAB_FIT_MAX)];
   char done[LAB_FIT_MAX] = {0};
@@ -1091,7 +1091,7 @@ static void test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_diffe
 }
 
 /* Of a model that differs, beside a difference; one that has other states is left. */
-static void test_lab_unknowns_changes_with__other_models__are_their_differences(void **state)
+TEST(test_lab_unknowns_changes_with__other_models__are_their_differences)
 {
   enum { LEAKING, LAGGING, MODELS };
   static lab_rig model[MODELS];
@@ -1111,7 +1111,7 @@ static void test_lab_unknowns_changes_with__other_models__are_their_differences(
 
 /* A model with one unknown more begins with the slopes of the one that it extends, and the new one is not among them.
  */
-static void test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_the_others(void **state)
+TEST(test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_the_others)
 {
   lab_unknowns more;
   int j, k;
@@ -1138,7 +1138,7 @@ static void test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_th
 }
 
 /* No room upwards: the difference is taken downwards, and is the same. */
-static void test_lab_unknowns_slope__at_its_upper_bound__stays_inside(void **state)
+TEST(test_lab_unknowns_slope__at_its_upper_bound__stays_inside)
 {
   double seen[DATA + LAB_FIT_MAX];
   open_closely();
@@ -1170,7 +1170,7 @@ static void open_to_fit(void)
   }
 }
 
-static void test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals(void **state)
+TEST(test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals)
 {
   static lab_fit_result fit;
   double chi2, before;
@@ -1195,7 +1195,7 @@ static void test_lab_unknowns_fit__log_without_noise__finds_all_within_their_int
   assert_close(u.unknown[SPRING].first, 4e5, 0, 0);
 }
 
-static void test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says(void **state)
+TEST(test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says)
 {
   static lab_fit_result fit;
   double chi2;
@@ -1244,7 +1244,7 @@ static void move_row_to_stop(void)
 
 /* Pressure and travel are the same where area, spring, friction, orifices and volume are all a per cent larger. Only
  * what is known of the area beforehand, to 2 %, says how large they are, and no row that a stop passes by. */
-static void test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_tolerance_of_the_area(void **state)
+TEST(test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_tolerance_of_the_area)
 {
   static lab_fit_result fit;
   int spring;
@@ -1262,7 +1262,7 @@ static void test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_
 }
 
 /* Friction of a place that the declared model lacks, found as knots between held ends. */
-static void test_lab_unknowns_fit__knots__find_the_term_that_made_the_log(void **state)
+TEST(test_lab_unknowns_fit__knots__find_the_term_that_made_the_log)
 {
   static const pneu_term flat = {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 5, 0, (pneu_real)0.02, {0}};
   static const double want[] = {60, 240, 100};
@@ -1290,7 +1290,7 @@ static void test_lab_unknowns_fit__knots__find_the_term_that_made_the_log(void *
 
 /* A force that comes every 0.7 s, from a start that is off by 3 % in the period, a sixth of a turn after 4 s, and by a
  * third or more in size and phase. */
-static void test_lab_unknowns_fit__cycle__finds_period_and_amplitudes(void **state)
+TEST(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes)
 {
   const pneu_term truth_term = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 2, 0, (pneu_real)0.7, {80, -60}},
                   start = {PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 2, 0, (pneu_real)0.721, {50, -10}};
@@ -1314,65 +1314,7 @@ static void test_lab_unknowns_fit__cycle__finds_period_and_amplitudes(void **sta
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_unknowns_open__fit_list__has_shared_and_own_and_switches),
-      cmocka_unit_test(test_lab_unknowns_open__own_value_with_a_tolerance__has_a_prior_in_each_run),
-      cmocka_unit_test(test_lab_unknowns_expected__own_values__are_their_mean_and_spread),
-      cmocka_unit_test(test_lab_unknowns_stay_near__far_more_than_declared__is_ten_tolerances_off),
-      cmocka_unit_test(test_lab_candidate_is_far__values_of_two_causes_one_not_fitted__is_far),
-      cmocka_unit_test(test_lab_unknowns_is_far__a_tenth_of_an_area__is_far),
-      cmocka_unit_test(test_lab_unknowns_open__switches__lie_within_their_brackets),
-      cmocka_unit_test(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost),
-      cmocka_unit_test(test_lab_unknowns_hold__damping_and_viscous_friction__are_one),
-      cmocka_unit_test(test_lab_unknowns_settle__lag_that_does_not_act__is_none),
-      cmocka_unit_test(test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_declared),
-      cmocka_unit_test(test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_what_is_left),
-      cmocka_unit_test(test_lab_unknowns_fit__own_value_in_a_model_that_errs__counts_by_what_is_left),
-      cmocka_unit_test(test_lab_unknowns_open__nothing_to_fit__has_the_switches_alone),
-      cmocka_unit_test(test_lab_unknowns_open__command_that_changes_often__has_one_timing),
-      cmocka_unit_test(test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_timing),
-      cmocka_unit_test(test_lab_unknowns_none__commands_at_their_rows__leave_nothing),
-      cmocka_unit_test(test_lab_unknowns_add__parameter__is_in_the_model_with_its_scale),
-      cmocka_unit_test(test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size),
-      cmocka_unit_test(test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them),
-      cmocka_unit_test(test_lab_unknowns_add__no_room__is_refused),
-      cmocka_unit_test(test_lab_unknowns_drop__one_between_others__leaves_these_in_order),
-      cmocka_unit_test(test_lab_unknowns_find__what_is_not_there__is_not_found),
-      cmocka_unit_test(test_lab_unknowns_add_term__free_ends__has_all_its_knots),
-      cmocka_unit_test(test_lab_unknowns_add_term__held_ends__keep_their_values),
-      cmocka_unit_test(test_lab_unknowns_drop_term__the_last_one__takes_its_knots_alone),
-      cmocka_unit_test(test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it_is),
-      cmocka_unit_test(test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period),
-      cmocka_unit_test(test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone),
-      cmocka_unit_test(test_lab_unknowns_drop_term__cycle__takes_its_period_along),
-      cmocka_unit_test(test_lab_unknowns_add_term__no_room_for_the_period__is_refused),
-      cmocka_unit_test(test_lab_unknowns_apply__all_experiments__has_shared_values_only),
-      cmocka_unit_test(test_lab_unknowns_apply__one_experiment__has_its_own_values_too),
-      cmocka_unit_test(test_lab_unknowns_residuals__log_of_the_model_itself__are_zero),
-      cmocka_unit_test(test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_stem),
-      cmocka_unit_test(test_lab_unknowns_residuals__known_errors__are_over_the_noise),
-      cmocka_unit_test(test_lab_unknowns_residuals__gap__counts_nothing),
-      cmocka_unit_test(test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_that_are_there),
-      cmocka_unit_test(test_lab_unknowns_residuals__own_values__belong_to_their_log),
-      cmocka_unit_test(test_lab_unknowns_residuals__switch_off_its_middle__is_paid_for),
-      cmocka_unit_test(test_lab_unknowns_residuals__commands_that_were_early__are_matched_by_their_switches),
-      cmocka_unit_test(test_lab_unknowns_residuals__noise_with_memory__are_whitened),
-      cmocka_unit_test(test_lab_unknowns_residuals_with__another_model__takes_its_shared_values),
-      cmocka_unit_test(test_lab_unknowns_view__windows__has_the_coarse_residuals),
-      cmocka_unit_test(test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_noise),
-      cmocka_unit_test(test_lab_unknowns_slope__switch__has_its_prior),
-      cmocka_unit_test(test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference),
-      cmocka_unit_test(test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_difference),
-      cmocka_unit_test(test_lab_unknowns_changes_with__other_models__are_their_differences),
-      cmocka_unit_test(test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_the_others),
-      cmocka_unit_test(test_lab_unknowns_slope__at_its_upper_bound__stays_inside),
-      cmocka_unit_test(test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals),
-      cmocka_unit_test(test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_tolerance_of_the_area),
-      cmocka_unit_test(test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says),
-      cmocka_unit_test(test_lab_unknowns_fit__knots__find_the_term_that_made_the_log),
-      cmocka_unit_test(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes),
-  };
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  const int failed = tests_run(NULL, NULL);
   close_all();
   return failed;
 }

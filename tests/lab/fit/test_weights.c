@@ -62,17 +62,17 @@ static double memory_told(int follows, double noise)
   return memory;
 }
 
-static void test_lab_weigh_runs__set_position_stays__noise_has_memory(void **state)
+TEST(test_lab_weigh_runs__set_position_stays__noise_has_memory)
 {
   assert_between(memory_told(0, 2e-4), 0.6, 0.9);
 }
 
-static void test_lab_weigh_runs__set_position_moves__is_no_noise(void **state)
+TEST(test_lab_weigh_runs__set_position_moves__is_no_noise)
 {
   assert_close(memory_told(1, 2e-4), 0, 0, 0);
 }
 
-static void test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is(void **state)
+TEST(test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is)
 {
   int any;
   write_log(0);
@@ -88,7 +88,7 @@ static void test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is(void **
 }
 
 /* What a poor model left may have been taken for memory: that it is none is as much news as that it is one. */
-static void test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once(void **state)
+TEST(test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once)
 {
   int any, again;
   double plain, sigma;
@@ -114,14 +114,14 @@ static void test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once(voi
 }
 
 /* The travel wanders by 0.5 mm. */
-static void test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise(void **state)
+TEST(test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise)
 {
   assert_close(memory_told(0, 2e-5), 0, 0, 0);
   assert_between(memory_told(0, 1e-4), 0.6, 0.9);
 }
 
 /* Rows far between, of which noise was taken for ten times what it is; a declared one stays. */
-static void test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left(void **state)
+TEST(test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left)
 {
   FILE *file = fopen(scratch_path("log.csv"), "w");
   double told;
@@ -169,7 +169,7 @@ static double noise_of_walk(double memory)
 
 /* Nothing stands still: what goes on from row to row is the model's error, of which 0.1 mm, 0.5 % of the stroke, may be
  * noise; what does not is noise. */
-static void test_lab_weigh_runs__all_moves__errors_that_go_on_are_not_noise(void **state)
+TEST(test_lab_weigh_runs__all_moves__errors_that_go_on_are_not_noise)
 {
   assert_close(noise_of_walk(0.97), 1e-4, 0, 1e-9);
   assert_between(noise_of_walk(0), 4e-4, 8e-4);
@@ -177,14 +177,5 @@ static void test_lab_weigh_runs__all_moves__errors_that_go_on_are_not_noise(void
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_weigh_runs__set_position_stays__noise_has_memory),
-      cmocka_unit_test(test_lab_weigh_runs__set_position_moves__is_no_noise),
-      cmocka_unit_test(test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is),
-      cmocka_unit_test(test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once),
-      cmocka_unit_test(test_lab_weigh_runs__wanders_by_tens_of_the_declared__is_no_noise),
-      cmocka_unit_test(test_lab_weigh_runs__all_moves__errors_that_go_on_are_not_noise),
-      cmocka_unit_test(test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -39,7 +39,7 @@ static double rms(int first)
   return sqrt(sum / WINDOWS);
 }
 
-static void test_lab_windowed_count__lengths__windows_overlap_by_half(void **state)
+TEST(test_lab_windowed_count__lengths__windows_overlap_by_half)
 {
   assert_int_equal(lab_windowed_count(100, 20), 9);
   assert_int_equal(lab_windowed_count(109, 20), 9);
@@ -50,7 +50,7 @@ static void test_lab_windowed_count__lengths__windows_overlap_by_half(void **sta
   assert_int_equal(lab_windowed_count(ROWS, WINDOW), WINDOWS);
 }
 
-static void test_lab_windowed_residuals__sawtooth_out_of_phase__are_small(void **state)
+TEST(test_lab_windowed_residuals__sawtooth_out_of_phase__are_small)
 {
   double row_by_row = 0;
   int i;
@@ -67,7 +67,7 @@ static void test_lab_windowed_residuals__sawtooth_out_of_phase__are_small(void *
   }
 }
 
-static void test_lab_windowed_residuals__line_for_a_sawtooth__miss_its_scatter(void **state)
+TEST(test_lab_windowed_residuals__line_for_a_sawtooth__miss_its_scatter)
 {
   int i;
   fill(NULL, 2);
@@ -80,7 +80,7 @@ static void test_lab_windowed_residuals__line_for_a_sawtooth__miss_its_scatter(v
   }
 }
 
-static void test_lab_windowed_residuals__sawtooth_beside_its_course__miss_the_mean(void **state)
+TEST(test_lab_windowed_residuals__sawtooth_beside_its_course__miss_the_mean)
 {
   int i;
   fill(NULL, 3);
@@ -93,7 +93,7 @@ static void test_lab_windowed_residuals__sawtooth_beside_its_course__miss_the_me
   }
 }
 
-static void test_lab_windowed_residuals__noise_alone__have_unit_scatter(void **state)
+TEST(test_lab_windowed_residuals__noise_alone__have_unit_scatter)
 {
   int i;
   fill(ramp, 4);
@@ -104,7 +104,7 @@ static void test_lab_windowed_residuals__noise_alone__have_unit_scatter(void **s
   assert_close(rms(1), 1, 0.2, 0);
 }
 
-static void test_lab_windowed_residuals__gaps__do_not_count(void **state)
+TEST(test_lab_windowed_residuals__gaps__do_not_count)
 {
   int i;
   fill(ramp, 5);
@@ -128,7 +128,7 @@ static void test_lab_windowed_residuals__gaps__do_not_count(void **state)
   assert_true(r[20] != 0 && r[21] != 0);
 }
 
-static void test_lab_windowed_roughness__smooth_with_noise__is_0(void **state)
+TEST(test_lab_windowed_roughness__smooth_with_noise__is_0)
 {
   int i;
   fill(ramp, 6);
@@ -145,7 +145,7 @@ static double strokes(int i, double slowness)
 }
 
 /* A stroke that takes half as long again as the model's is no stick-slip. */
-static void test_lab_windowed_roughness__slower_strokes__is_0(void **state)
+TEST(test_lab_windowed_roughness__slower_strokes__is_0)
 {
   int i;
   fill(ramp, 8);
@@ -156,7 +156,7 @@ static void test_lab_windowed_roughness__slower_strokes__is_0(void **state)
   assert_true(lab_windowed_roughness(measured, predicted, ROWS, WINDOW, sigma) == 0);
 }
 
-static void test_lab_windowed_roughness__stick_slip__is_1_unless_predicted(void **state)
+TEST(test_lab_windowed_roughness__stick_slip__is_1_unless_predicted)
 {
   int i;
   fill(NULL, 7);
@@ -174,7 +174,7 @@ static double shaking(int i)
   return i % 4 < 2 ? 2 : -2;
 }
 
-static void test_lab_windowed_roughness__no_motion__is_0(void **state)
+TEST(test_lab_windowed_roughness__no_motion__is_0)
 {
   int i;
   fill(shaking, 8);
@@ -185,17 +185,5 @@ static void test_lab_windowed_roughness__no_motion__is_0(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_windowed_count__lengths__windows_overlap_by_half),
-      cmocka_unit_test(test_lab_windowed_residuals__sawtooth_out_of_phase__are_small),
-      cmocka_unit_test(test_lab_windowed_residuals__line_for_a_sawtooth__miss_its_scatter),
-      cmocka_unit_test(test_lab_windowed_residuals__sawtooth_beside_its_course__miss_the_mean),
-      cmocka_unit_test(test_lab_windowed_residuals__noise_alone__have_unit_scatter),
-      cmocka_unit_test(test_lab_windowed_residuals__gaps__do_not_count),
-      cmocka_unit_test(test_lab_windowed_roughness__smooth_with_noise__is_0),
-      cmocka_unit_test(test_lab_windowed_roughness__slower_strokes__is_0),
-      cmocka_unit_test(test_lab_windowed_roughness__stick_slip__is_1_unless_predicted),
-      cmocka_unit_test(test_lab_windowed_roughness__no_motion__is_0),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

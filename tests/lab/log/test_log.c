@@ -22,6 +22,8 @@ static int fresh_format(void **state)
   return 0;
 }
 
+#define CASE(name) TEST_WITH(name, fresh_format, forget)
+
 /* Read a log that must be good. */
 static void read_log(const char *text)
 {
@@ -83,7 +85,7 @@ static void check_lines(const int *want, size_t n)
 
 /* ---- Good logs ---- */
 
-static void test_lab_log_read__documented_format__gives_si(void **state)
+CASE(test_lab_log_read__documented_format__gives_si)
 {
   read_log("# a remark\nt [ms],u [%],p [bar],x [mm],T [degC],force [kN]\n"
            "0,0,0,0,25,0\n# another\n10,50,1.5,2.5,26,-0.25\n");
@@ -98,7 +100,7 @@ static void test_lab_log_read__documented_format__gives_si(void **state)
   assert_runs(0, 2);
 }
 
-static void test_lab_log_read__absolute_pressures__become_gauge(void **state)
+CASE(test_lab_log_read__absolute_pressures__become_gauge)
 {
   read_log("t [s],p_abs [kPa],ps_abs [bar],p2_abs [Pa]\n0,120,5,100000\n");
   assert_column(P, 1e-9, 20000);
@@ -106,20 +108,20 @@ static void test_lab_log_read__absolute_pressures__become_gauge(void **state)
   assert_column(P2, 1e-9, 0);
 }
 
-static void test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted(void **state)
+CASE(test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted)
 {
   read_log("\xEF\xBB\xBF\"t [s]\", \"u [1]\"\r\n0, 1\r\n1, 0\r\n\r\n \r\n");
   assert_column(U, 0, 1, 0);
 }
 
 /* A mark in quotes is text, and a number in quotes is a number. */
-static void test_lab_log_read__cells_in_quotes__are_cells(void **state)
+CASE(test_lab_log_read__cells_in_quotes__are_cells)
 {
   read_log("\"t [s]\",u [1],\"-\"\n\"0\",\"1\",\"hall 2, \"\"east\"\"\"\n1,0,west\n");
   assert_column(U, 0, 1, 0);
 }
 
-static void test_lab_log_command_changes__between_two_rows__counts(void **state)
+CASE(test_lab_log_command_changes__between_two_rows__counts)
 {
   lab_log none;
   read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n");
@@ -133,26 +135,26 @@ static void test_lab_log_command_changes__between_two_rows__counts(void **state)
   assert_false(lab_log_command_changes(&none, 0, 3));
 }
 
-static void test_lab_log_read__last_line_without_end__counts(void **state)
+CASE(test_lab_log_read__last_line_without_end__counts)
 {
   read_log("\xEF\xBB\xBFt [s],u [1]\n0,0\n1,0.5");
   assert_column(U, 0, 0, 0.5);
 }
 
-static void test_lab_log_read__empty_field_or_nan__is_a_gap(void **state)
+CASE(test_lab_log_read__empty_field_or_nan__is_a_gap)
 {
   read_log("t [s],u [1],p [kPa],x [mm]\n0,0,,1\n1,0,nan,NaN\n2,0,3,\n");
   assert_column(P, 1e-9, NAN, NAN, 3000);
   assert_column(X, 1e-15, 1e-3, NAN, NAN);
 }
 
-static void test_lab_log_read__column_named_minus__is_ignored(void **state)
+CASE(test_lab_log_read__column_named_minus__is_ignored)
 {
   read_log("t [s],-,p [kPa]\n0,what,1\n1,ever,2\n");
   assert_column(P, 1e-9, 1000, 2000);
 }
 
-static void test_lab_log_read__uneven_times__are_kept(void **state)
+CASE(test_lab_log_read__uneven_times__are_kept)
 {
   read_log("t [s],u [1]\n-1,0\n0.001,0\n7.25,0\n");
   assert_column(TIME, 0, -1, 0.001, 7.25);
@@ -160,7 +162,7 @@ static void test_lab_log_read__uneven_times__are_kept(void **state)
 
 /* ---- Raw logger files ---- */
 
-static void test_lab_log_read__semicolons_and_decimal_comma__are_read(void **state)
+CASE(test_lab_log_read__semicolons_and_decimal_comma__are_read)
 {
   format.delimiter = ';';
   format.decimal = ',';
@@ -169,7 +171,7 @@ static void test_lab_log_read__semicolons_and_decimal_comma__are_read(void **sta
   assert_column(P, 1e-9, 125000);
 }
 
-static void test_lab_log_read__thousands_dots_in_time__are_left_out(void **state)
+CASE(test_lab_log_read__thousands_dots_in_time__are_left_out)
 {
   format.delimiter = ';';
   format.thousands = '.';
@@ -179,13 +181,13 @@ static void test_lab_log_read__thousands_dots_in_time__are_left_out(void **state
   assert_column(P, 1e-9, 731500, 731600);
 }
 
-static void test_lab_log_read__dates_beside_a_documented_header__are_time(void **state)
+CASE(test_lab_log_read__dates_beside_a_documented_header__are_time)
 {
   read_log("Timestamp,u [1]\n2026-11-03 09:12:44,0\n2026-11-03 09:12:46.5,0\n");
   assert_column(TIME, 1e-9, 0, 2.5);
 }
 
-static void test_lab_log_read__tabs_and_skipped_lines__are_read(void **state)
+CASE(test_lab_log_read__tabs_and_skipped_lines__are_read)
 {
   format.delimiter = '\t';
   format.skip_lines = 2;
@@ -196,7 +198,7 @@ static void test_lab_log_read__tabs_and_skipped_lines__are_read(void **state)
   assert_column(FORCE, 50.193e-15, 50.178, 50.193);
 }
 
-static void test_lab_log_read__units_above_vacuum__become_gauge(void **state)
+CASE(test_lab_log_read__units_above_vacuum__become_gauge)
 {
   static const char *const units[] = {"bara", "bar(a)", "bar abs"};
   size_t i;
@@ -210,7 +212,7 @@ static void test_lab_log_read__units_above_vacuum__become_gauge(void **state)
   }
 }
 
-static void test_lab_log_read__raw_counts__take_a_unit_of_their_own(void **state)
+CASE(test_lab_log_read__raw_counts__take_a_unit_of_their_own)
 {
   format.delimiter = ';';
   set_columns("t [s]", "p_abs [hPa]", "u [1/4096]");
@@ -219,7 +221,7 @@ static void test_lab_log_read__raw_counts__take_a_unit_of_their_own(void **state
   assert_column(P, 1e-9, 2927, 2940);
 }
 
-static void test_lab_log_read__scale_and_offset__act_on_si(void **state)
+CASE(test_lab_log_read__scale_and_offset__act_on_si)
 {
   format.scale[LAB_CHANNEL_X] = -1;
   format.offset[LAB_CHANNEL_X] = 0.070;
@@ -229,21 +231,21 @@ static void test_lab_log_read__scale_and_offset__act_on_si(void **state)
   assert_column(P, 1e-9, 20000);
 }
 
-static void test_lab_log_read__constants__fill_a_channel(void **state)
+CASE(test_lab_log_read__constants__fill_a_channel)
 {
   format.constant[LAB_CHANNEL_U] = -1;
   read_log("t [s],p [kPa]\n0,1\n1,2\n");
   assert_column(U, 0, -1, -1);
 }
 
-static void test_lab_log_read__time_step__makes_time(void **state)
+CASE(test_lab_log_read__time_step__makes_time)
 {
   format.time_step = 0.5;
   read_log("p [kPa],x [mm]\n0,1\n1,2\n2,3\n");
   assert_column(TIME, 0, 0, 0.5, 1);
 }
 
-static void test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken(void **state)
+CASE(test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken)
 {
   format.time_step = 0.5;
   format.damaged = LAB_DAMAGED_DROP;
@@ -252,14 +254,14 @@ static void test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken(v
   assert_column(TIME, 0, 0.5, 1.5);
 }
 
-static void test_lab_log_read__falling_time__starts_a_run(void **state)
+CASE(test_lab_log_read__falling_time__starts_a_run)
 {
   format.new_run = LAB_RUN_T_DROPS;
   read_log("t [ms],p [bar]\n13,0\n20,1\n1,0\n21,1\n30,2\n0,0\n");
   assert_runs(0, 2, 5, 6);
 }
 
-static void test_lab_log_read__many_runs__are_all_listed(void **state)
+CASE(test_lab_log_read__many_runs__are_all_listed)
 {
   char text[20000] = "t [s],p [bar]\n";
   size_t i;
@@ -272,7 +274,7 @@ static void test_lab_log_read__many_runs__are_all_listed(void **state)
     assert_int_equal(rows.run[i], 2 * i);
 }
 
-static void test_lab_log_read__window__keeps_rows_inside_and_counts_the_others(void **state)
+CASE(test_lab_log_read__window__keeps_rows_inside_and_counts_the_others)
 {
   format.from = 1;
   format.to = 2;
@@ -281,7 +283,7 @@ static void test_lab_log_read__window__keeps_rows_inside_and_counts_the_others(v
   assert_column(TIME, 0, 1, 2);
 }
 
-static void test_lab_log_read__damaged_rows_to_drop__are_counted(void **state)
+CASE(test_lab_log_read__damaged_rows_to_drop__are_counted)
 {
   format.damaged = LAB_DAMAGED_DROP;
   format.new_run = LAB_RUN_T_DROPS;
@@ -304,7 +306,7 @@ static void set_long_format(void)
   strcpy(format.quantity[2].column, "-");
 }
 
-static void test_lab_log_read__long_format__joins_rows_of_one_time(void **state)
+CASE(test_lab_log_read__long_format__joins_rows_of_one_time)
 {
   set_long_format();
   format.constant[LAB_CHANNEL_U] = -1;
@@ -316,7 +318,7 @@ static void test_lab_log_read__long_format__joins_rows_of_one_time(void **state)
   assert_lines(2, 4, 3);
 }
 
-static void test_lab_log_read__long_format_with_command__holds_it(void **state)
+CASE(test_lab_log_read__long_format_with_command__holds_it)
 {
   set_long_format();
   strcpy(format.quantity[1].word, "valve");
@@ -325,14 +327,14 @@ static void test_lab_log_read__long_format_with_command__holds_it(void **state)
   assert_column(U, 0, 1, 1, -1, -1);
 }
 
-static void test_lab_log_read__position_in_percent__is_of_the_stroke(void **state)
+CASE(test_lab_log_read__position_in_percent__is_of_the_stroke)
 {
   format.stroke = 0.02;
   read_log("t [s],x [%]\n0,50\n1,100\n");
   assert_column(X, 1e-17, 0.01, 0.02);
 }
 
-static void test_lab_log_read__set_position__is_a_share_of_the_stroke(void **state)
+CASE(test_lab_log_read__set_position__is_a_share_of_the_stroke)
 {
   static const char *const units[] = {"%", "mm", "1", "cm"};
   static const double half[] = {50, 10, 0.5, 1};
@@ -353,13 +355,13 @@ static void test_lab_log_read__set_position__is_a_share_of_the_stroke(void **sta
   assert_refused("t [s],sp [mm]\n0,1\n", "sp [mm]", "mm");
 }
 
-static void test_lab_log_read__set_position_as_a_current__is_4_to_20_mA(void **state)
+CASE(test_lab_log_read__set_position_as_a_current__is_4_to_20_mA)
 {
   read_log("t [s],sp [mA],x [mm]\n0,4,0\n1,8,0\n2,20,1\n");
   assert_column(SP, 1e-12, 0, 0.25, 1);
 }
 
-static void test_lab_log_read__set_position_beside_a_command__is_only_shown(void **state)
+CASE(test_lab_log_read__set_position_beside_a_command__is_only_shown)
 {
   read_log("t [s],sp [%],u [1],x [mm]\n0,10,0,0\n1,,1,0\n2,20,1,0\n");
   assert_int_equal(lab_log_command(&rows), LAB_CHANNEL_U);
@@ -369,7 +371,7 @@ static void test_lab_log_read__set_position_beside_a_command__is_only_shown(void
   assert_int_equal(lab_log_command(&rows), -1);
 }
 
-static void test_lab_log_read__command_as_pressure__is_not_bounded_by_one(void **state)
+CASE(test_lab_log_read__command_as_pressure__is_not_bounded_by_one)
 {
   format.command_is_pressure = 1;
   read_log("t [s],u [kPa]\n0,80\n");
@@ -378,7 +380,7 @@ static void test_lab_log_read__command_as_pressure__is_not_bounded_by_one(void *
 
 /* ---- Rows put into shape ---- */
 
-static void test_lab_log_read__weights__add_columns_up(void **state)
+CASE(test_lab_log_read__weights__add_columns_up)
 {
   static const double weight[] = {1, 0.5, -0.5, 0.5, -0.5};
   static const char *const column[] = {"t [s]", "p [hPa]", "p [hPa]", "p [hPa]", "p [hPa]"};
@@ -392,7 +394,7 @@ static void test_lab_log_read__weights__add_columns_up(void **state)
   assert_column(P, 1e-9, 150 + 7, 3000 + 7, NAN);
 }
 
-static void test_lab_log_read__way_back__is_reversed(void **state)
+CASE(test_lab_log_read__way_back__is_reversed)
 {
   set_columns("-", "p [kPa]", "x [mm]");
   format.time_step = 10;
@@ -404,7 +406,7 @@ static void test_lab_log_read__way_back__is_reversed(void **state)
   assert_lines(1, 2, 3, 6, 5, 4);
 }
 
-static void test_lab_log_read__way_back_that_is_missing__is_refused(void **state)
+CASE(test_lab_log_read__way_back_that_is_missing__is_refused)
 {
   set_columns("p [kPa]", NULL, NULL);
   format.time_step = 10;
@@ -414,7 +416,7 @@ static void test_lab_log_read__way_back_that_is_missing__is_refused(void **state
   assert_refused("0\n5\n3\n", "log.csv", "a column x");
 }
 
-static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run(void **state)
+CASE(test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run)
 {
   set_columns("t [s]", "p [bar]", NULL);
   format.new_run = LAB_RUN_T_DROPS;
@@ -426,7 +428,7 @@ static void test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_ru
   assert_lines(1, 3, 4, 6);
 }
 
-static void test_lab_log_read__held_out__takes_other_rows_and_another_window(void **state)
+CASE(test_lab_log_read__held_out__takes_other_rows_and_another_window)
 {
   static const char text[] = "0,1\n1,2\n2,3\n3,4\n4,5\n5,6\n";
   set_columns("t [s]", "p [bar]", NULL);
@@ -445,7 +447,7 @@ static void test_lab_log_read__held_out__takes_other_rows_and_another_window(voi
   assert_refused(text, "log.csv:3", "before log.first");
 }
 
-static void test_lab_log_read__name_of_the_file__tells_a_channel(void **state)
+CASE(test_lab_log_read__name_of_the_file__tells_a_channel)
 {
   set_columns("t [s]", "p [bar]", NULL);
   strcpy(format.name[LAB_CHANNEL_X], "_l [dm]");
@@ -457,7 +459,7 @@ static void test_lab_log_read__name_of_the_file__tells_a_channel(void **state)
   assert_refused("0,1\n1,2\n", "log.csv", "\"_l\" and a number in the file's name");
 }
 
-static void test_lab_log_read__mean_of_runs__joins_equal_times(void **state)
+CASE(test_lab_log_read__mean_of_runs__joins_equal_times)
 {
   set_columns("t [ms]", "p [bar]", "p2 [bar]");
   format.new_run = LAB_RUN_T_DROPS;
@@ -484,7 +486,7 @@ static void set_lead(void)
   format.lead[1][LAB_CHANNEL_U] = 1;
 }
 
-static void test_lab_log_read__lead__comes_before_each_run(void **state)
+CASE(test_lab_log_read__lead__comes_before_each_run)
 {
   set_columns("t [ms]", "p [bar]", NULL);
   format.new_run = LAB_RUN_T_DROPS;
@@ -497,7 +499,7 @@ static void test_lab_log_read__lead__comes_before_each_run(void **state)
   assert_int_equal(rows.line[4], 3);
 }
 
-static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **state)
+CASE(test_lab_log_read__lead_of_ends__takes_first_and_last_values)
 {
   set_columns("t [ms]", "p [bar]", NULL);
   format.new_run = LAB_RUN_T_DROPS;
@@ -511,7 +513,7 @@ static void test_lab_log_read__lead_of_ends__takes_first_and_last_values(void **
 }
 
 /* A command that the lead does not give is that of the first row, which it is in effect before. */
-static void test_lab_log_read__lead_without_command__has_that_of_the_first_row(void **state)
+CASE(test_lab_log_read__lead_without_command__has_that_of_the_first_row)
 {
   set_columns("t [s]", "u [1]", "p [Pa]");
   set_lead();
@@ -521,7 +523,7 @@ static void test_lab_log_read__lead_without_command__has_that_of_the_first_row(v
 }
 
 /* A lead may name a channel that has only gaps in the run. */
-static void test_lab_log_read__lead_of_gaps__is_a_gap(void **state)
+CASE(test_lab_log_read__lead_of_gaps__is_a_gap)
 {
   set_columns("t [s]", "p [Pa]", "x [m]");
   set_lead();
@@ -531,7 +533,7 @@ static void test_lab_log_read__lead_of_gaps__is_a_gap(void **state)
   assert_column(P, 0, NAN, NAN, 5, 6);
 }
 
-static void test_lab_log_read__columns_of_the_rig_that_are_none__are_refused(void **state)
+CASE(test_lab_log_read__columns_of_the_rig_that_are_none__are_refused)
 {
   set_columns("t [s]", "pressure [Pa]", NULL);
   assert_refused("0,1\n", "log.columns", "unknown channel \"pressure\"");
@@ -542,7 +544,7 @@ static void test_lab_log_read__columns_of_the_rig_that_are_none__are_refused(voi
   assert_refused("a,0,1\n", "log.quantities", "has no unit");
 }
 
-static void test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_lines(void **state)
+CASE(test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_lines)
 {
   set_columns("quantity", "t [s]", "value");
   format.n_quantities = 2;
@@ -554,7 +556,7 @@ static void test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_line
   assert_lines(1, 3);
 }
 
-static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state)
+CASE(test_lab_log_read__lead_after_the_first_row__is_refused)
 {
   set_columns("t [ms]", "p [bar]", NULL);
   set_lead();
@@ -563,19 +565,19 @@ static void test_lab_log_read__lead_after_the_first_row__is_refused(void **state
 
 /* ---- Bad files ---- */
 
-static void test_lab_log_read__missing_file__says_so(void **state)
+CASE(test_lab_log_read__missing_file__says_so)
 {
   assert_int_equal(lab_log_read(scratch_path("none.csv"), &format, ambient, &rows, &error), LAB_DATA);
   assert_contains(error.text, "none.csv: there is no such file");
 }
 
-static void test_lab_log_read__folder__says_so(void **state)
+CASE(test_lab_log_read__folder__says_so)
 {
   assert_int_equal(lab_log_read(scratch_folder, &format, ambient, &rows, &error), LAB_DATA);
   assert_contains(error.text, "this is a folder");
 }
 
-static void test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault(void **state)
+CASE(test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault)
 {
   if (access("/proc/self/mem", R_OK) != 0)
     skip();
@@ -583,7 +585,7 @@ static void test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault(void
   assert_contains(error.text, "cannot be read");
 }
 
-static void test_lab_log_read__forbidden_file__is_the_worlds_fault(void **state)
+CASE(test_lab_log_read__forbidden_file__is_the_worlds_fault)
 {
   const char *path = scratch_text("secret.csv", "t [s]\n0\n");
   if (geteuid() == 0)
@@ -592,7 +594,7 @@ static void test_lab_log_read__forbidden_file__is_the_worlds_fault(void **state)
   assert_int_equal(lab_log_read(path, &format, ambient, &rows, &error), LAB_WORLD);
 }
 
-static void test_lab_log_read__bad_file__says_what_is_wrong(void **state)
+CASE(test_lab_log_read__bad_file__says_what_is_wrong)
 {
   static const struct {
     const char *text, *place, *words;
@@ -634,7 +636,7 @@ static void test_lab_log_read__bad_file__says_what_is_wrong(void **state)
     assert_refused(bad[i].text, bad[i].place, bad[i].words);
 }
 
-static void test_lab_log_read__zero_bytes__are_not_text(void **state)
+CASE(test_lab_log_read__zero_bytes__are_not_text)
 {
   const char bytes[] = "t [s],u [1]\n0,0\n1\0,0\n";
   assert_int_equal(lab_log_read(scratch_bytes("log.csv", bytes, sizeof bytes - 1), &format, ambient, &rows, &error),
@@ -643,13 +645,13 @@ static void test_lab_log_read__zero_bytes__are_not_text(void **state)
   assert_contains(error.text, "0 byte");
 }
 
-static void test_lab_log_read__garbage_without_zeros__is_shown_printable(void **state)
+CASE(test_lab_log_read__garbage_without_zeros__is_shown_printable)
 {
   assert_refused("\x89PNG\r\x1a\x01\x02\n\x07\n", "log.csv:1: column 1", "?PNG");
   assert_null(strpbrk(error.text, "\x1a\x01\x02\x07\r\n"));
 }
 
-static void test_lab_log_read__endless_line__is_refused(void **state)
+CASE(test_lab_log_read__endless_line__is_refused)
 {
   char *text = malloc(LAB_CSV_LINE + 100);
   memset(text, '1', LAB_CSV_LINE + 99);
@@ -661,19 +663,19 @@ static void test_lab_log_read__endless_line__is_refused(void **state)
 
 /* ---- Bad headers and rows ---- */
 
-static void test_lab_log_read__time_and_time_step__is_refused(void **state)
+CASE(test_lab_log_read__time_and_time_step__is_refused)
 {
   format.time_step = 1;
   assert_refused("t [s],p [kPa]\n0,0\n", "log.csv:1:", "found both");
 }
 
-static void test_lab_log_read__column_and_constant__is_refused(void **state)
+CASE(test_lab_log_read__column_and_constant__is_refused)
 {
   format.constant[LAB_CHANNEL_U] = 1;
   assert_refused("t [s],u [1]\n0,0\n", "log.csv:1:", "log.constants");
 }
 
-static void test_lab_log_read__too_many_columns__is_refused(void **state)
+CASE(test_lab_log_read__too_many_columns__is_refused)
 {
   char text[1000] = "t [s]";
   int i;
@@ -683,25 +685,25 @@ static void test_lab_log_read__too_many_columns__is_refused(void **state)
   assert_refused(text, "log.csv:1:", "at most 64 columns");
 }
 
-static void test_lab_log_read__too_few_lines_to_skip__is_refused(void **state)
+CASE(test_lab_log_read__too_few_lines_to_skip__is_refused)
 {
   format.skip_lines = 5;
   assert_refused("t [s]\n0\n", "log.csv", "more than the 5 lines");
 }
 
-static void test_lab_log_read__nothing_in_the_window__is_refused(void **state)
+CASE(test_lab_log_read__nothing_in_the_window__is_refused)
 {
   format.from = 10;
   assert_refused("t [s],u [1]\n0,0\n1,0\n", "log.csv", "2 outside log.window");
 }
 
-static void test_lab_log_read__repeated_time_with_runs__is_still_refused(void **state)
+CASE(test_lab_log_read__repeated_time_with_runs__is_still_refused)
 {
   format.new_run = LAB_RUN_T_DROPS;
   assert_refused("t [s],u [1]\n0,0\n0,0\n", "log.csv:3:", "channel t");
 }
 
-static void test_lab_log_read__long_format_faults__are_refused(void **state)
+CASE(test_lab_log_read__long_format_faults__are_refused)
 {
   set_long_format();
   assert_refused("h\nT_C,0,8\n", "log.csv:2:", "unknown quantity \"T_C\"");
@@ -710,70 +712,7 @@ static void test_lab_log_read__long_format_faults__are_refused(void **state)
   assert_refused("h\np_bar_abs,0,8\nT_K,1,1\n", "log.csv:2:", "command u at the first instant");
 }
 
-#define CASE(name) cmocka_unit_test_setup_teardown(name, fresh_format, forget)
-
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      CASE(test_lab_log_read__documented_format__gives_si),
-      CASE(test_lab_log_read__absolute_pressures__become_gauge),
-      CASE(test_lab_log_read__dos_lines_mark_quotes_and_blank_end__are_accepted),
-      CASE(test_lab_log_read__cells_in_quotes__are_cells),
-      CASE(test_lab_log_command_changes__between_two_rows__counts),
-      CASE(test_lab_log_read__last_line_without_end__counts),
-      CASE(test_lab_log_read__empty_field_or_nan__is_a_gap),
-      CASE(test_lab_log_read__column_named_minus__is_ignored),
-      CASE(test_lab_log_read__uneven_times__are_kept),
-      CASE(test_lab_log_read__semicolons_and_decimal_comma__are_read),
-      CASE(test_lab_log_read__thousands_dots_in_time__are_left_out),
-      CASE(test_lab_log_read__dates_beside_a_documented_header__are_time),
-      CASE(test_lab_log_read__tabs_and_skipped_lines__are_read),
-      CASE(test_lab_log_read__units_above_vacuum__become_gauge),
-      CASE(test_lab_log_read__raw_counts__take_a_unit_of_their_own),
-      CASE(test_lab_log_read__scale_and_offset__act_on_si),
-      CASE(test_lab_log_read__constants__fill_a_channel),
-      CASE(test_lab_log_read__time_step__makes_time),
-      CASE(test_lab_log_read__time_step__goes_on_over_rows_that_are_not_taken),
-      CASE(test_lab_log_read__falling_time__starts_a_run),
-      CASE(test_lab_log_read__many_runs__are_all_listed),
-      CASE(test_lab_log_read__window__keeps_rows_inside_and_counts_the_others),
-      CASE(test_lab_log_read__damaged_rows_to_drop__are_counted),
-      CASE(test_lab_log_read__long_format__joins_rows_of_one_time),
-      CASE(test_lab_log_read__long_format_with_command__holds_it),
-      CASE(test_lab_log_read__position_in_percent__is_of_the_stroke),
-      CASE(test_lab_log_read__set_position__is_a_share_of_the_stroke),
-      CASE(test_lab_log_read__set_position_as_a_current__is_4_to_20_mA),
-      CASE(test_lab_log_read__set_position_beside_a_command__is_only_shown),
-      CASE(test_lab_log_read__command_as_pressure__is_not_bounded_by_one),
-      CASE(test_lab_log_read__weights__add_columns_up),
-      CASE(test_lab_log_read__way_back__is_reversed),
-      CASE(test_lab_log_read__way_back_that_is_missing__is_refused),
-      CASE(test_lab_log_read__every__keeps_the_first_of_so_many_rows_of_each_run),
-      CASE(test_lab_log_read__held_out__takes_other_rows_and_another_window),
-      CASE(test_lab_log_read__name_of_the_file__tells_a_channel),
-      CASE(test_lab_log_read__mean_of_runs__joins_equal_times),
-      CASE(test_lab_log_read__lead__comes_before_each_run),
-      CASE(test_lab_log_read__lead_of_gaps__is_a_gap),
-      CASE(test_lab_log_read__lead_without_command__has_that_of_the_first_row),
-      CASE(test_lab_log_read__columns_of_the_rig_that_are_none__are_refused),
-      CASE(test_lab_log_read__long_log_with_rows_of_one_instant__keeps_its_lines),
-      CASE(test_lab_log_read__lead_of_ends__takes_first_and_last_values),
-      CASE(test_lab_log_read__lead_after_the_first_row__is_refused),
-      CASE(test_lab_log_read__missing_file__says_so),
-      CASE(test_lab_log_read__folder__says_so),
-      CASE(test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault),
-      CASE(test_lab_log_read__forbidden_file__is_the_worlds_fault),
-      CASE(test_lab_log_read__bad_file__says_what_is_wrong),
-      CASE(test_lab_log_read__zero_bytes__are_not_text),
-      CASE(test_lab_log_read__garbage_without_zeros__is_shown_printable),
-      CASE(test_lab_log_read__endless_line__is_refused),
-      CASE(test_lab_log_read__time_and_time_step__is_refused),
-      CASE(test_lab_log_read__column_and_constant__is_refused),
-      CASE(test_lab_log_read__too_many_columns__is_refused),
-      CASE(test_lab_log_read__too_few_lines_to_skip__is_refused),
-      CASE(test_lab_log_read__nothing_in_the_window__is_refused),
-      CASE(test_lab_log_read__repeated_time_with_runs__is_still_refused),
-      CASE(test_lab_log_read__long_format_faults__are_refused),
-  };
-  return cmocka_run_group_tests_name("log", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -99,7 +99,7 @@ static void read_logger(const struct logger *l)
   lab_log_free(&log);
 }
 
-static void test_lab_log_read__as_loggers_write__is_read_or_answered(void **state)
+TEST(test_lab_log_read__as_loggers_write__is_read_or_answered)
 {
   size_t i;
   for (i = 0; i < sizeof loggers / sizeof loggers[0]; i++) {
@@ -136,7 +136,7 @@ static void read_well(const char *group, const char *path)
   succeed(read_as(group, path, &seen, &error));
 }
 
-static void test_lab_log_read__map__names_a_column_and_its_unit(void **state)
+TEST(test_lab_log_read__map__names_a_column_and_its_unit)
 {
   const char *path =
       scratch_text("m.csv", "Time (s);AI 1;AI 2 (V);Setpoint (%);Pressure (bar)\n0,0;1;2;3;4\n0,1;1;2;3;4\n");
@@ -149,13 +149,13 @@ static void test_lab_log_read__map__names_a_column_and_its_unit(void **state)
   assert_close(seen.value[LAB_CHANNEL_P][1], 4e5, 1e-9, 0);
 }
 
-static void test_lab_log_read__map_of_no_column__names_the_nearest(void **state)
+TEST(test_lab_log_read__map_of_no_column__names_the_nearest)
 {
   const char *path = scratch_text("m.csv", "Time (s),Setpoint (%),Presure (bar)\n0,0,1\n1,0,1\n");
   assert_refused("log = { map = { p = \"Pressure (bar)\"; }; };", path, "the nearest is \"Presure (bar)\"");
 }
 
-static void test_lab_log_read__map__is_a_group_of_channels_and_not_beside_columns(void **state)
+TEST(test_lab_log_read__map__is_a_group_of_channels_and_not_beside_columns)
 {
   assert_rig_refused("log = { map = { q = \"a\"; }; };", "log.map.q", "unknown key");
   assert_rig_refused("log = { columns = ( \"t [s]\" ); map = { p = \"a\"; }; };", "log", "give one");
@@ -169,7 +169,7 @@ static void assert_same_again(const char *group)
 }
 
 /* What is guessed of hard files. */
-static void test_lab_log_read__hard_files__are_guessed_or_told(void **state)
+TEST(test_lab_log_read__hard_files__are_guessed_or_told)
 {
   read_well("", scratch_text("h.txt", "Time_s  Setpoint_%  Travel_mm\n0,0   0   1,5\n0,1  50  2,5\n"));
   assert_close(seen.value[LAB_CHANNEL_X][1], 2.5e-3, 1e-15, 0);
@@ -186,7 +186,7 @@ static void test_lab_log_read__hard_files__are_guessed_or_told(void **state)
 }
 
 /* A signal or counts stand for a range; a column without a unit is taken to be in the signal's. */
-static void test_lab_log_read__signals_and_counts__become_what_they_stand_for(void **state)
+TEST(test_lab_log_read__signals_and_counts__become_what_they_stand_for)
 {
   static const char *const group =
       "log = { map = { p = \"AI 1\"; }; scale = { p = \"4..20 mA\"; x = \"0..27648\"; sp = \"2..10 V\"; };\n"
@@ -204,7 +204,7 @@ static void test_lab_log_read__signals_and_counts__become_what_they_stand_for(vo
   assert_same_again(group);
 }
 
-static void test_lab_rig_read__signals_that_are_none__are_refused(void **state)
+TEST(test_lab_rig_read__signals_that_are_none__are_refused)
 {
   static const struct {
     const char *group, *words;
@@ -224,7 +224,7 @@ static void test_lab_rig_read__signals_that_are_none__are_refused(void **state)
 }
 
 /* A map and the order of dates are written into model.cfg and read back. */
-static void test_lab_rig_write__map_and_date__are_read_again(void **state)
+TEST(test_lab_rig_write__map_and_date__are_read_again)
 {
   assert_same_again("log = { map = { p = \"a \\\"b\\\" (bar)\"; x = \"c\"; }; date = \"dmy\"; delimiter = \"blanks\"; "
                     "scale = { x = -2; }; };");
@@ -233,7 +233,7 @@ static void test_lab_rig_write__map_and_date__are_read_again(void **state)
 }
 
 /* A file in long form goes by columns and quantities; dates are the unit of its time. */
-static void test_lab_log_read__long_form_of_wincc__is_read_by_keys(void **state)
+TEST(test_lab_log_read__long_form_of_wincc__is_read_by_keys)
 {
   read_well("log = { skip_lines = 1; columns = ( \"quantity\", \"t [date]\", \"value\", \"-\", \"-\" );\n"
             "quantities = { SP = \"sp [%]\"; P_bar = \"p [bar]\"; Hub_mm = \"x [mm]\"; }; };",
@@ -241,7 +241,7 @@ static void test_lab_log_read__long_form_of_wincc__is_read_by_keys(void **state)
   check_rows(&seen, LAB_CHANNEL_SP);
 }
 
-static void test_lab_log_read__order_of_dates__is_that_of_the_rig_file(void **state)
+TEST(test_lab_log_read__order_of_dates__is_that_of_the_rig_file)
 {
   const char *path =
       scratch_text("d.csv", "Time,Setpoint (%),Travel (mm)\n03/04/2024 23:59:59,0,1\n04/04/2024 00:00:01,0,1\n");
@@ -255,7 +255,7 @@ static void test_lab_log_read__order_of_dates__is_that_of_the_rig_file(void **st
 }
 
 /* Words of German plants. */
-static void test_lab_log_read__names_of_plants__are_known(void **state)
+TEST(test_lab_log_read__names_of_plants__are_known)
 {
   read_well("",
             scratch_text("d.csv", "Zeit (s);Stellsignal (%);Kammerdruck (bar);Hub (mm)\n0;50;1,5;10\n1;50;1,6;11\n"));
@@ -263,7 +263,7 @@ static void test_lab_log_read__names_of_plants__are_known(void **state)
   assert_close(seen.value[LAB_CHANNEL_X][1], 11e-3, 1e-12, 0);
 }
 
-static void test_lab_log_read__time_of_day__goes_on_after_midnight(void **state)
+TEST(test_lab_log_read__time_of_day__goes_on_after_midnight)
 {
   read_well("", scratch_text("d.csv",
                              "Time,Setpoint (%)\n23:59:59.5,0\n00:00:00.25,0\n12:00:00,0\n23:00:00,0\n00:00:01,0\n"));
@@ -273,7 +273,7 @@ static void test_lab_log_read__time_of_day__goes_on_after_midnight(void **state)
 
 /* ---- What is no text ---- */
 
-static void test_lab_text_read__binary_files__say_what_makes_text_of_them(void **state)
+TEST(test_lab_text_read__binary_files__say_what_makes_text_of_them)
 {
   static const struct {
     const char *begin, *words;
@@ -290,7 +290,7 @@ static void test_lab_text_read__binary_files__say_what_makes_text_of_them(void *
     assert_refused("", scratch_text("b.csv", binary[i].begin), binary[i].words);
 }
 
-static void test_lab_text_read__utf16_of_either_order_and_without_mark__is_read(void **state)
+TEST(test_lab_text_read__utf16_of_either_order_and_without_mark__is_read)
 {
   static const char text[] = "t [s],u [1]\n0,1\n1,0\n";
   char wide[2 * sizeof text + 2];
@@ -314,21 +314,5 @@ static void test_lab_text_read__utf16_of_either_order_and_without_mark__is_read(
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_log_read__as_loggers_write__is_read_or_answered),
-      cmocka_unit_test(test_lab_log_read__map__names_a_column_and_its_unit),
-      cmocka_unit_test(test_lab_log_read__map_of_no_column__names_the_nearest),
-      cmocka_unit_test(test_lab_log_read__map__is_a_group_of_channels_and_not_beside_columns),
-      cmocka_unit_test(test_lab_rig_write__map_and_date__are_read_again),
-      cmocka_unit_test(test_lab_log_read__hard_files__are_guessed_or_told),
-      cmocka_unit_test(test_lab_log_read__signals_and_counts__become_what_they_stand_for),
-      cmocka_unit_test(test_lab_rig_read__signals_that_are_none__are_refused),
-      cmocka_unit_test(test_lab_log_read__long_form_of_wincc__is_read_by_keys),
-      cmocka_unit_test(test_lab_log_read__order_of_dates__is_that_of_the_rig_file),
-      cmocka_unit_test(test_lab_log_read__names_of_plants__are_known),
-      cmocka_unit_test(test_lab_log_read__time_of_day__goes_on_after_midnight),
-      cmocka_unit_test(test_lab_text_read__binary_files__say_what_makes_text_of_them),
-      cmocka_unit_test(test_lab_text_read__utf16_of_either_order_and_without_mark__is_read),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, close_all);
+  return tests_run(scratch_open, close_all);
 }

@@ -3,7 +3,7 @@
 
 #include "../../../apps/lab/log/stamp.h"
 
-static void test_lab_stamp_read__forms_of_dates__give_day_and_second(void **state)
+TEST(test_lab_stamp_read__forms_of_dates__give_day_and_second)
 {
   static const struct {
     const char *text;
@@ -40,7 +40,7 @@ static void test_lab_stamp_read__forms_of_dates__give_day_and_second(void **stat
   }
 }
 
-static void test_lab_stamp_read__anything_else__is_none(void **state)
+TEST(test_lab_stamp_read__anything_else__is_none)
 {
   static const char *const bad[] = {"",           "1.5",         "1,5",   "12",        "2024-03",   "2024-13-01",
                                     "32.01.2024", "25:00",       "12:60", "12:00:61",  "12:00 x",   "1.2.3.4",
@@ -55,9 +55,5 @@ static void test_lab_stamp_read__anything_else__is_none(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_stamp_read__forms_of_dates__give_day_and_second),
-      cmocka_unit_test(test_lab_stamp_read__anything_else__is_none),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -53,7 +53,7 @@ static lab_asymmetry compare(double (*rise)(double), double (*fall)(double))
 }
 
 /* Between 5 and 95 % a lag runs from 0 to 1 as (1 - q^s)/(1 - q) where q = 0.05.../0.95... is what is left to go. */
-static void test_asymmetry_signed__lag_against_line__closed_form(void **state)
+TEST(test_asymmetry_signed__lag_against_line__closed_form)
 {
   const double end = 1 / 0.99, q = (end - 0.95) / (end - 0.05);
   const double area = (1 + (1 - q) / log(q)) / (1 - q) - 0.5;
@@ -66,7 +66,7 @@ static void test_asymmetry_signed__lag_against_line__closed_form(void **state)
   assert_close(r.asymmetry, area, 1e-4, 0);
 }
 
-static void test_asymmetry_signed__strokes_that_cross__areas_cancel(void **state)
+TEST(test_asymmetry_signed__strokes_that_cross__areas_cancel)
 {
   const lab_asymmetry r = compare(wavy, straight);
   assert_close(r.asymmetry, 0.05 * 2 / acos(-1) / 0.9, 1e-3, 0);
@@ -75,9 +75,5 @@ static void test_asymmetry_signed__strokes_that_cross__areas_cancel(void **state
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_asymmetry_signed__lag_against_line__closed_form),
-      cmocka_unit_test(test_asymmetry_signed__strokes_that_cross__areas_cancel),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -29,7 +29,7 @@ static void record_cycle(double supply, double preload, double friction)
   record.mass_in = record_flow;
 }
 
-static void test_metrics__cycle__the_paper_s_energies(void **state)
+TEST(test_metrics__cycle__the_paper_s_energies)
 {
   const double in = A * 4e5 * record_stroke;                           /* [B, Eq. 42] */
   const double spring = k * record_stroke * (x_0 + record_stroke / 2); /* [J] */
@@ -44,7 +44,7 @@ static void test_metrics__cycle__the_paper_s_energies(void **state)
 }
 
 /* [B, Eqs. 41 to 43]: a spring without preload that the supply just compresses gives back half of what came in. */
-static void test_metrics__spring_that_fills_the_supply__half(void **state)
+TEST(test_metrics__spring_that_fills_the_supply__half)
 {
   record_cycle(k * record_stroke / A, 0, 0);
   record_measure();
@@ -53,7 +53,7 @@ static void test_metrics__spring_that_fills_the_supply__half(void **state)
 }
 
 /* A bench set low in the supply range leaves more than the paper's limit. */
-static void test_metrics__low_bench_set__above_the_limit_and_said(void **state)
+TEST(test_metrics__low_bench_set__above_the_limit_and_said)
 {
   record_cycle(2.4e5, 0, 100);
   record_measure();
@@ -61,7 +61,7 @@ static void test_metrics__low_bench_set__above_the_limit_and_said(void **state)
   assert_contains(metric_of(LAB_METRIC_ENERGY_EFFICIENCY)->text, "above the limit of 50 %");
 }
 
-static void test_metrics__noisy_cycle__within_what_is_said(void **state)
+TEST(test_metrics__noisy_cycle__within_what_is_said)
 {
   const double spring = k * record_stroke * (x_0 + record_stroke / 2);
   record_cycle(4e5, x_0, F);
@@ -72,7 +72,7 @@ static void test_metrics__noisy_cycle__within_what_is_said(void **state)
   assert_covers(LAB_METRIC_ENERGY_LOST, 2 * F * record_stroke, 3);
 }
 
-static void test_metrics__air__integral_of_the_flow(void **state)
+TEST(test_metrics__air__integral_of_the_flow)
 {
   const double mass = 1e-4 * 20 * 20 / 2;
   record_cycle(4e5, x_0, F);
@@ -85,7 +85,7 @@ static void test_metrics__air__integral_of_the_flow(void **state)
   assert_denied(LAB_METRIC_AIR_VOLUME, "no mass flow");
 }
 
-static void test_metrics__no_cycle__says_what_is_missing(void **state)
+TEST(test_metrics__no_cycle__says_what_is_missing)
 {
   record_cycle(4e5, x_0, F);
   record.supply = 0;
@@ -107,7 +107,7 @@ static void test_metrics__no_cycle__says_what_is_missing(void **state)
 }
 
 /* Up in one run and down in the next is no cycle. */
-static void test_metrics__two_runs__are_kept_apart(void **state)
+TEST(test_metrics__two_runs__are_kept_apart)
 {
   record_cycle(4e5, x_0, F);
   record_first[2] = record.n;
@@ -120,14 +120,5 @@ static void test_metrics__two_runs__are_kept_apart(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_metrics__cycle__the_paper_s_energies),
-      cmocka_unit_test(test_metrics__spring_that_fills_the_supply__half),
-      cmocka_unit_test(test_metrics__low_bench_set__above_the_limit_and_said),
-      cmocka_unit_test(test_metrics__noisy_cycle__within_what_is_said),
-      cmocka_unit_test(test_metrics__air__integral_of_the_flow),
-      cmocka_unit_test(test_metrics__no_cycle__says_what_is_missing),
-      cmocka_unit_test(test_metrics__two_runs__are_kept_apart),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

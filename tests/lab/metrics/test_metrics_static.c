@@ -64,7 +64,7 @@ static void ramps(element *e, const double *level, int n, double rate)
 
 /* ---- Play ---- */
 
-static void test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis(void **state)
+TEST(test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis)
 {
   element e = {20e3, 0, 0, 0, 0};
   record_new(LAB_COMMAND_SET_PRESSURE);
@@ -79,7 +79,7 @@ static void test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis(void 
   assert_true(metrics.metric[LAB_METRIC_RESOLUTION].at_most);
 }
 
-static void test_metrics__play_by_a_slow_ramp_with_noise__the_same(void **state)
+TEST(test_metrics__play_by_a_slow_ramp_with_noise__the_same)
 {
   element e = {20e3, 0, 0, 0, 0};
   record_new(LAB_COMMAND_PRESSURE);
@@ -95,7 +95,7 @@ static void test_metrics__play_by_a_slow_ramp_with_noise__the_same(void **state)
 }
 
 /* Branches that part further in the middle than a turn needs. */
-static void test_metrics__hysteresis_beside_play__both_apart(void **state)
+TEST(test_metrics__hysteresis_beside_play__both_apart)
 {
   element e = {10e3, 0, 0, 16e3, 0};
   record_new(LAB_COMMAND_SET_PRESSURE);
@@ -107,7 +107,7 @@ static void test_metrics__hysteresis_beside_play__both_apart(void **state)
   assert_close(metric_of(LAB_METRIC_HYSTERESIS)->value, 13 - metrics.metric[LAB_METRIC_DEAD_BAND].value, 0.2, 0);
 }
 
-static void test_metrics__no_play__at_most_what_a_step_shows(void **state)
+TEST(test_metrics__no_play__at_most_what_a_step_shows)
 {
   measure_stairs((element){0, 0, 0, 0, 0}, (const double[]){0, 60, 30}, 3, 2);
   assert_true(metric_of(LAB_METRIC_DEAD_BAND)->at_most);
@@ -116,14 +116,14 @@ static void test_metrics__no_play__at_most_what_a_step_shows(void **state)
 
 /* ---- Resolution ---- */
 
-static void test_metrics__stem_that_slips__its_step(void **state)
+TEST(test_metrics__stem_that_slips__its_step)
 {
   measure_stairs((element){0, 0, 3e3, 0, 0}, (const double[]){0, 60}, 2, 0.25);
   assert_covers(LAB_METRIC_RESOLUTION, 1.5, 0.15);
   assert_false(metrics.metric[LAB_METRIC_RESOLUTION].at_most);
 }
 
-static void test_metrics__slips_in_a_noisy_ramp__their_step(void **state)
+TEST(test_metrics__slips_in_a_noisy_ramp__their_step)
 {
   element e = {0, 0, 6e3, 0, 0};
   record_new(LAB_COMMAND_PRESSURE);
@@ -137,7 +137,7 @@ static void test_metrics__slips_in_a_noisy_ramp__their_step(void **state)
 
 /* Of a parabola over its chord, the line that suits best takes half the height, which shrinks with the square of the
  * range. Off the stops are both branches from 3 % to 96 %, and the grid has 0.6 %. */
-static void test_metrics__bowed_characteristic__half_the_bow(void **state)
+TEST(test_metrics__bowed_characteristic__half_the_bow)
 {
   const double most = 0.96 - 0.03, least = most - 2 * 0.006;
   measure_stairs((element){4e3, 0.06, 0, 0, 0}, (const double[]){-10, 110, -10}, 3, 1);
@@ -147,7 +147,7 @@ static void test_metrics__bowed_characteristic__half_the_bow(void **state)
 
 /* ---- Reasons ---- */
 
-static void test_metrics__fast_loop__says_so(void **state)
+TEST(test_metrics__fast_loop__says_so)
 {
   element e = {20e3, 0, 0, 0, 0};
   record_new(LAB_COMMAND_PRESSURE);
@@ -159,7 +159,7 @@ static void test_metrics__fast_loop__says_so(void **state)
   assert_denied(LAB_METRIC_LINEARITY, "no slow loop");
 }
 
-static void test_metrics__turns_on_stops_only__no_dead_band(void **state)
+TEST(test_metrics__turns_on_stops_only__no_dead_band)
 {
   measure_stairs((element){20e3, 0, 0, 0, 0}, (const double[]){-10, 110, -10}, 3, 5);
   assert_denied(LAB_METRIC_DEAD_BAND, "on a stop it does");
@@ -167,14 +167,14 @@ static void test_metrics__turns_on_stops_only__no_dead_band(void **state)
   assert_covers(LAB_METRIC_HYSTERESIS_DEAD_BAND, 10, 0.2);
 }
 
-static void test_metrics__small_loop__says_how_small(void **state)
+TEST(test_metrics__small_loop__says_how_small)
 {
   measure_stairs((element){20e3, 0, 0, 0, 0}, (const double[]){0, 50, 20}, 3, 1);
   assert_covers(LAB_METRIC_DEAD_BAND, 10, 0.6);
   assert_denied(LAB_METRIC_HYSTERESIS_DEAD_BAND, "the largest slow one covers 20 %");
 }
 
-static void test_metrics__turn_between_rows__not_known(void **state)
+TEST(test_metrics__turn_between_rows__not_known)
 {
   element e = {20e3, 0, 0, 0, 0};
   record_new(LAB_COMMAND_SET_PRESSURE);
@@ -186,7 +186,7 @@ static void test_metrics__turn_between_rows__not_known(void **state)
   assert_denied(LAB_METRIC_DEAD_BAND, "between rows");
 }
 
-static void test_metrics__one_movement__no_resolution(void **state)
+TEST(test_metrics__one_movement__no_resolution)
 {
   element e = {0, 0, 0, 0, 0};
   record_new(LAB_COMMAND_SET_PRESSURE);
@@ -198,13 +198,13 @@ static void test_metrics__one_movement__no_resolution(void **state)
   assert_denied(LAB_METRIC_RESOLUTION, "twice in the same direction");
 }
 
-static void test_metrics__valve_that_snaps__no_line(void **state)
+TEST(test_metrics__valve_that_snaps__no_line)
 {
   measure_stairs((element){20e3, 0, 190e3, 0, 0}, (const double[]){-10, 110, -10}, 3, 2);
   assert_denied(LAB_METRIC_LINEARITY, "too little of the loop");
 }
 
-static void test_metrics__no_signal_to_set_it_against__says_so(void **state)
+TEST(test_metrics__no_signal_to_set_it_against__says_so)
 {
   element e = {20e3, 0, 0, 0, 0};
   record_new(LAB_COMMAND_OPENING);
@@ -225,21 +225,5 @@ static void test_metrics__no_signal_to_set_it_against__says_so(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_metrics__play_by_a_staircase__dead_band_and_no_hysteresis),
-      cmocka_unit_test(test_metrics__play_by_a_slow_ramp_with_noise__the_same),
-      cmocka_unit_test(test_metrics__hysteresis_beside_play__both_apart),
-      cmocka_unit_test(test_metrics__no_play__at_most_what_a_step_shows),
-      cmocka_unit_test(test_metrics__stem_that_slips__its_step),
-      cmocka_unit_test(test_metrics__slips_in_a_noisy_ramp__their_step),
-      cmocka_unit_test(test_metrics__bowed_characteristic__half_the_bow),
-      cmocka_unit_test(test_metrics__fast_loop__says_so),
-      cmocka_unit_test(test_metrics__turns_on_stops_only__no_dead_band),
-      cmocka_unit_test(test_metrics__small_loop__says_how_small),
-      cmocka_unit_test(test_metrics__turn_between_rows__not_known),
-      cmocka_unit_test(test_metrics__one_movement__no_resolution),
-      cmocka_unit_test(test_metrics__valve_that_snaps__no_line),
-      cmocka_unit_test(test_metrics__no_signal_to_set_it_against__says_so),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

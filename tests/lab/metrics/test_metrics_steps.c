@@ -23,7 +23,7 @@ static void record_lag(int steps, double hold, double step, double high)
   }
 }
 
-static void test_metrics__first_order_lag__its_times(void **state)
+TEST(test_metrics__first_order_lag__its_times)
 {
   record_lag(2, 16, 0.001, 0.014);
   record_measure();
@@ -41,7 +41,7 @@ static void test_metrics__first_order_lag__its_times(void **state)
 }
 
 /* 0.1 % of the stroke of noise, rows 3 to 17 ms apart, a gap across 63 %. */
-static void test_metrics__noise_gaps_uneven_rows__within_what_is_said(void **state)
+TEST(test_metrics__noise_gaps_uneven_rows__within_what_is_said)
 {
   double t = 0;
   record_new(LAB_COMMAND_SET_PRESSURE);
@@ -64,7 +64,7 @@ static void test_metrics__noise_gaps_uneven_rows__within_what_is_said(void **sta
 
 /* Of many draws of noise of 0.5 % of the change, nearly all leave a time within its uncertainty, and that is no more
  * than it has to be. */
-static void test_metrics__many_draws_of_noise__uncertainty_is_right(void **state)
+TEST(test_metrics__many_draws_of_noise__uncertainty_is_right)
 {
   enum { DRAWS = 100 };
   static const struct {
@@ -96,7 +96,7 @@ static void test_metrics__many_draws_of_noise__uncertainty_is_right(void **state
   assert_between(dead, 93, DRAWS);
 }
 
-static void test_metrics__logged_command__known_within_a_row(void **state)
+TEST(test_metrics__logged_command__known_within_a_row)
 {
   double exact;
   record_lag(1, 16, 0.01, 0.014);
@@ -121,7 +121,7 @@ static void record_second_order(double zeta, double sigma)
   record_noise(0, sigma);
 }
 
-static void test_metrics__second_order__its_overshoot(void **state)
+TEST(test_metrics__second_order__its_overshoot)
 {
   const double zeta = 0.4;
   record_second_order(zeta, 0);
@@ -133,14 +133,14 @@ static void test_metrics__second_order__its_overshoot(void **state)
   assert_covers(LAB_METRIC_OVERSHOOT_UP, 100 * exp(-pi * zeta / sqrt(1 - zeta * zeta)), 1.5);
 }
 
-static void test_metrics__overdamped_with_noise__no_overshoot(void **state)
+TEST(test_metrics__overdamped_with_noise__no_overshoot)
 {
   record_second_order(0.99, 2e-5);
   record_measure();
   assert_metric(LAB_METRIC_OVERSHOOT_UP, 0, 0, 0);
 }
 
-static void test_metrics__several_steps__median_of_the_large_ones(void **state)
+TEST(test_metrics__several_steps__median_of_the_large_ones)
 {
   record_lag(6, 16, 0.01, 0.014);
   record_measure();
@@ -151,7 +151,7 @@ static void test_metrics__several_steps__median_of_the_large_ones(void **state)
 
 /* ---- Reasons ---- */
 
-static void test_metrics__few_noisy_rows__settling_is_hidden(void **state)
+TEST(test_metrics__few_noisy_rows__settling_is_hidden)
 {
   record_lag(1, 16, 0.2, 0.014);
   record_noise(0, 2e-4);
@@ -160,7 +160,7 @@ static void test_metrics__few_noisy_rows__settling_is_hidden(void **state)
   assert_covers(LAB_METRIC_T63_UP, Td - T * log(1 - 0.632), 0.3);
 }
 
-static void test_metrics__unsettled__says_so(void **state)
+TEST(test_metrics__unsettled__says_so)
 {
   record_lag(3, 1.5, 0.01, 0.014);
   record_measure();
@@ -170,7 +170,7 @@ static void test_metrics__unsettled__says_so(void **state)
   assert_denied(LAB_METRIC_ASYMMETRY, "not settled before the next step");
 }
 
-static void test_metrics__small_step__says_so(void **state)
+TEST(test_metrics__small_step__says_so)
 {
   record_lag(1, 16, 0.01, 0.0044);
   record_noise(0, 2e-5);
@@ -178,7 +178,7 @@ static void test_metrics__small_step__says_so(void **state)
   assert_denied(LAB_METRIC_DEAD_TIME_UP, "too small a movement");
 }
 
-static void test_metrics__gap_before_the_step__says_so(void **state)
+TEST(test_metrics__gap_before_the_step__says_so)
 {
   size_t i;
   record_lag(1, 16, 0.01, 0.014);
@@ -192,7 +192,7 @@ static void test_metrics__gap_before_the_step__says_so(void **state)
   assert_denied(LAB_METRIC_T63_UP, "in a gap of the record");
 }
 
-static void test_metrics__nothing_to_go_by__says_why(void **state)
+TEST(test_metrics__nothing_to_go_by__says_why)
 {
   int i;
   record_new(LAB_COMMAND_SET_PRESSURE);
@@ -226,7 +226,7 @@ static void record_pressure_steps(double rise, double sigma)
   record_noise(sigma, 0);
 }
 
-static void test_metrics__steps_of_a_measured_pressure__found(void **state)
+TEST(test_metrics__steps_of_a_measured_pressure__found)
 {
   record_pressure_steps(0.05, 200);
   record_measure();
@@ -235,7 +235,7 @@ static void test_metrics__steps_of_a_measured_pressure__found(void **state)
   assert_denied(LAB_METRIC_T63_DOWN, "no step down of the chamber pressure");
 }
 
-static void test_metrics__pressure_that_ramps__is_no_step(void **state)
+TEST(test_metrics__pressure_that_ramps__is_no_step)
 {
   record_pressure_steps(3, 200);
   record_measure();
@@ -259,7 +259,7 @@ static void record_strokes(double top, double fall)
   }
 }
 
-static void test_metrics__full_strokes__times_and_asymmetry(void **state)
+TEST(test_metrics__full_strokes__times_and_asymmetry)
 {
   const double rise = T * (log(1 - 0.05 / 1.05) - log(1 - 0.95 / 1.05)), fall = 0.9 * 4;
   double shape = 0;
@@ -276,7 +276,7 @@ static void test_metrics__full_strokes__times_and_asymmetry(void **state)
   assert_metric(LAB_METRIC_ASYMMETRY, shape, 1e-4, 0);
 }
 
-static void test_metrics__noisy_strokes__within_what_is_said(void **state)
+TEST(test_metrics__noisy_strokes__within_what_is_said)
 {
   const double rise = T * (log(1 - 0.05 / 1.05) - log(1 - 0.95 / 1.05));
   record_strokes(record_stroke, 4);
@@ -287,7 +287,7 @@ static void test_metrics__noisy_strokes__within_what_is_said(void **state)
   assert_covers(LAB_METRIC_DURATION_RATIO, 3.6 / rise, 0.05);
 }
 
-static void test_metrics__part_of_a_stroke__says_how_much(void **state)
+TEST(test_metrics__part_of_a_stroke__says_how_much)
 {
   record_strokes(0.5 * record_stroke, 4);
   record_measure();
@@ -299,24 +299,5 @@ static void test_metrics__part_of_a_stroke__says_how_much(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_metrics__first_order_lag__its_times),
-      cmocka_unit_test(test_metrics__noise_gaps_uneven_rows__within_what_is_said),
-      cmocka_unit_test(test_metrics__many_draws_of_noise__uncertainty_is_right),
-      cmocka_unit_test(test_metrics__logged_command__known_within_a_row),
-      cmocka_unit_test(test_metrics__second_order__its_overshoot),
-      cmocka_unit_test(test_metrics__overdamped_with_noise__no_overshoot),
-      cmocka_unit_test(test_metrics__several_steps__median_of_the_large_ones),
-      cmocka_unit_test(test_metrics__few_noisy_rows__settling_is_hidden),
-      cmocka_unit_test(test_metrics__unsettled__says_so),
-      cmocka_unit_test(test_metrics__small_step__says_so),
-      cmocka_unit_test(test_metrics__gap_before_the_step__says_so),
-      cmocka_unit_test(test_metrics__nothing_to_go_by__says_why),
-      cmocka_unit_test(test_metrics__steps_of_a_measured_pressure__found),
-      cmocka_unit_test(test_metrics__pressure_that_ramps__is_no_step),
-      cmocka_unit_test(test_metrics__full_strokes__times_and_asymmetry),
-      cmocka_unit_test(test_metrics__noisy_strokes__within_what_is_said),
-      cmocka_unit_test(test_metrics__part_of_a_stroke__says_how_much),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

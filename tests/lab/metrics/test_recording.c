@@ -51,7 +51,7 @@ static int forget_strokes(void **state)
 }
 
 /* What noise and sampling leave open covers the difference between the record and the model that made it. */
-static void test_lab_recording__measured_and_predicted__agree_within_what_is_said(void **state)
+TEST(test_lab_recording__measured_and_predicted__agree_within_what_is_said)
 {
   static const int both[] = {LAB_METRIC_DEAD_TIME_UP,   LAB_METRIC_DEAD_TIME_DOWN,   LAB_METRIC_T63_UP,
                              LAB_METRIC_T63_DOWN,       LAB_METRIC_T86_UP,           LAB_METRIC_T86_DOWN,
@@ -70,7 +70,7 @@ static void test_lab_recording__measured_and_predicted__agree_within_what_is_sai
 }
 
 /* The air of a cycle is what the full chamber holds more than the empty one. */
-static void test_lab_recording__air__what_the_chamber_takes(void **state)
+TEST(test_lab_recording__air__what_the_chamber_takes)
 {
   const double R_T = (double)rig.params.gas_constant * 298.15;
   const double empty = 101325 * 4e-5 / R_T, whole = (101325 + 4e5) * (4e-5 + 0.04 * 0.02) / R_T;
@@ -78,7 +78,7 @@ static void test_lab_recording__air__what_the_chamber_takes(void **state)
                predicted.metric[LAB_METRIC_AIR_MASS].uncertainty, 2e-3);
 }
 
-static void test_lab_metrics_compare__model_that_fails__its_error_is_the_reason(void **state)
+TEST(test_lab_metrics_compare__model_that_fails__its_error_is_the_reason)
 {
   static lab_metrics got, none;
   lab_unknowns broken = u;
@@ -92,7 +92,7 @@ static void test_lab_metrics_compare__model_that_fails__its_error_is_the_reason(
   assert_contains(none.metric[LAB_METRIC_T63_UP].text, "area");
 }
 
-static void test_lab_recording__driven_position__gives_nothing(void **state)
+TEST(test_lab_recording__driven_position__gives_nothing)
 {
   lab_rig driven = rig;
   lab_recording recording;
@@ -102,7 +102,7 @@ static void test_lab_recording__driven_position__gives_nothing(void **state)
   lab_recording_close(&recording);
 }
 
-static void test_lab_recording__force_and_preload__set_the_bench_set(void **state)
+TEST(test_lab_recording__force_and_preload__set_the_bench_set)
 {
   lab_rig loaded = rig;
   lab_recording recording;
@@ -115,7 +115,7 @@ static void test_lab_recording__force_and_preload__set_the_bench_set(void **stat
 
 /* ---- Text ---- */
 
-static void test_lab_metrics_json__read_back__every_figure_or_its_reason(void **state)
+TEST(test_lab_metrics_json__read_back__every_figure_or_its_reason)
 {
   const char *path = scratch_path("figures.json");
   FILE *file = fopen(path, "w");
@@ -144,7 +144,7 @@ static void test_lab_metrics_json__read_back__every_figure_or_its_reason(void **
   free(text);
 }
 
-static void test_lab_metrics_print__one_line_a_figure_and_a_step(void **state)
+TEST(test_lab_metrics_print__one_line_a_figure_and_a_step)
 {
   const char *path = scratch_path("figures.txt");
   FILE *file = fopen(path, "w");
@@ -201,7 +201,7 @@ static int read_step(const char *name, double u_after, lab_metrics *out)
   return 1;
 }
 
-static void test_metrics__damadics_steps__by_what_was_drawn(void **state)
+TEST(test_metrics__damadics_steps__by_what_was_drawn)
 {
   lab_metrics up, down;
   if (!read_step("step_up_fig6.csv", 1, &up) || !read_step("step_down_fig7.csv", -1, &down))
@@ -215,15 +215,5 @@ static void test_metrics__damadics_steps__by_what_was_drawn(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_recording__measured_and_predicted__agree_within_what_is_said),
-      cmocka_unit_test(test_lab_recording__air__what_the_chamber_takes),
-      cmocka_unit_test(test_lab_metrics_compare__model_that_fails__its_error_is_the_reason),
-      cmocka_unit_test(test_lab_recording__driven_position__gives_nothing),
-      cmocka_unit_test(test_lab_recording__force_and_preload__set_the_bench_set),
-      cmocka_unit_test(test_lab_metrics_json__read_back__every_figure_or_its_reason),
-      cmocka_unit_test(test_lab_metrics_print__one_line_a_figure_and_a_step),
-      cmocka_unit_test(test_metrics__damadics_steps__by_what_was_drawn),
-  };
-  return cmocka_run_group_tests(tests, measure_strokes, forget_strokes);
+  return tests_run(measure_strokes, forget_strokes);
 }

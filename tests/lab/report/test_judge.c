@@ -34,7 +34,7 @@ static void close_log(void)
 }
 
 /* The instants of commands are not fitted there, so that more than noise is left either way. */
-static void test_lab_judge__unseen_log__tells_its_own_value_by_its_start(void **state)
+TEST(test_lab_judge__unseen_log__tells_its_own_value_by_its_start)
 {
   lab_errors shared, own;
   size_t i;
@@ -51,7 +51,7 @@ static void test_lab_judge__unseen_log__tells_its_own_value_by_its_start(void **
 }
 
 /* A log that rests for a quarter begins to tell after that: until its stem has moved by a tenth. */
-static void test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved(void **state)
+TEST(test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved)
 {
   lab_errors shared, own;
   open_log(5.002);
@@ -64,7 +64,7 @@ static void test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved(v
 }
 
 /* By its clock a row may be off by as much as the stem moves in that time. */
-static void test_lab_weigh_unseen__rows_that_move__weigh_less(void **state)
+TEST(test_lab_weigh_unseen__rows_that_move__weigh_less)
 {
   const double jitter = 0.01; /* [s] */
   double least = 1, fastest = 0;
@@ -86,10 +86,5 @@ static void test_lab_weigh_unseen__rows_that_move__weigh_less(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_judge__unseen_log__tells_its_own_value_by_its_start),
-      cmocka_unit_test(test_lab_weigh_unseen__rows_that_move__weigh_less),
-      cmocka_unit_test(test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -146,7 +146,7 @@ static const recorder *const recorders[] = {&as_declared, &rounded,  &late,    &
 
 /* ---- Verdicts ---- */
 
-static void test_lab_answer_find__nothing_missing__nothing_is_named_however_it_was_recorded(void **state)
+TEST(test_lab_answer_find__nothing_missing__nothing_is_named_however_it_was_recorded)
 {
   int k;
   run_truth(0);
@@ -158,7 +158,7 @@ static void test_lab_answer_find__nothing_missing__nothing_is_named_however_it_w
   }
 }
 
-static void test_lab_answer_find__leak__is_named_however_it_was_recorded(void **state)
+TEST(test_lab_answer_find__leak__is_named_however_it_was_recorded)
 {
   int k;
   fixture_need("chamber_leak");
@@ -176,7 +176,7 @@ static void test_lab_answer_find__leak__is_named_however_it_was_recorded(void **
 
 enum { P, X };
 
-static void test_lab_answer_find__each_recorder__is_recognised(void **state)
+TEST(test_lab_answer_find__each_recorder__is_recognised)
 {
   const double step = 1.25 * 0.02 / 1024;
   lab_answer *a;
@@ -254,7 +254,7 @@ static void write_loop(int is_loop)
   fclose(file);
 }
 
-static void test_lab_answer_find__u_and_set_position__what_explains_the_log_drives(void **state)
+TEST(test_lab_answer_find__u_and_set_position__what_explains_the_log_drives)
 {
   int is_loop;
   for (is_loop = 0; is_loop < 2; is_loop++) {
@@ -278,11 +278,5 @@ static void test_lab_answer_find__u_and_set_position__what_explains_the_log_driv
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_answer_find__nothing_missing__nothing_is_named_however_it_was_recorded),
-      cmocka_unit_test(test_lab_answer_find__leak__is_named_however_it_was_recorded),
-      cmocka_unit_test(test_lab_answer_find__each_recorder__is_recognised),
-      cmocka_unit_test(test_lab_answer_find__u_and_set_position__what_explains_the_log_drives),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

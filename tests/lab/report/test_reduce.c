@@ -3,7 +3,7 @@
 
 #include "../../../apps/lab/report/reduce.h"
 
-static void test_lab_envelope__a_spike__is_kept(void **state)
+TEST(test_lab_envelope__a_spike__is_kept)
 {
   enum { N = 1000, COLUMNS = 10 };
   static double at[N], value[N];
@@ -29,7 +29,7 @@ static void test_lab_envelope__a_spike__is_kept(void **state)
 }
 
 /* A gap of many rows breaks the line, one of a row or two does not. */
-static void test_lab_envelope__runs_and_gaps__break_the_line(void **state)
+TEST(test_lab_envelope__runs_and_gaps__break_the_line)
 {
   enum { ROWS = 40 };
   double at[ROWS], value[ROWS];
@@ -52,7 +52,7 @@ static void test_lab_envelope__runs_and_gaps__break_the_line(void **state)
 }
 
 /* A channel that is measured now and then, as read off a figure, is a line. */
-static void test_lab_envelope__few_values__are_joined(void **state)
+TEST(test_lab_envelope__few_values__are_joined)
 {
   enum { ROWS = 40 };
   double at[ROWS], value[ROWS];
@@ -70,7 +70,7 @@ static void test_lab_envelope__few_values__are_joined(void **state)
     assert_false(isnan(point[i].value));
 }
 
-static void test_lab_bin_means__values__mean_of_each_part(void **state)
+TEST(test_lab_bin_means__values__mean_of_each_part)
 {
   const double at[] = {0, 0.5, 1, 1.5, 2, (double)NAN}, value[] = {1, 3, 5, (double)NAN, 7, 9};
   lab_bin bin[2];
@@ -83,11 +83,5 @@ static void test_lab_bin_means__values__mean_of_each_part(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_envelope__a_spike__is_kept),
-      cmocka_unit_test(test_lab_envelope__runs_and_gaps__break_the_line),
-      cmocka_unit_test(test_lab_envelope__few_values__are_joined),
-      cmocka_unit_test(test_lab_bin_means__values__mean_of_each_part),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -186,7 +186,7 @@ static const char *fault_of(const char *text)
   return depth ? "a tag is left open" : "";
 }
 
-static void test_fault_of__bad_pages__are_seen(void **state)
+TEST(test_fault_of__bad_pages__are_seen)
 {
   assert_string_equal(fault_of("<!DOCTYPE html><p>a<br/><b>c</b></p>"), "");
   assert_string_not_equal(fault_of("<p>a<b>c</p></b>"), "");
@@ -195,7 +195,7 @@ static void test_fault_of__bad_pages__are_seen(void **state)
   assert_string_equal(fault_of("<script><![CDATA[ if (a<b) c(); ]]></script>"), "");
 }
 
-static void test_lab_report_html__leak__page_is_well_formed(void **state)
+TEST(test_lab_report_html__leak__page_is_well_formed)
 {
   assert_string_equal(fault_of(the_page()), "");
   assert_null(strstr(the_page(), "{{"));
@@ -210,7 +210,7 @@ static int count(const char *text, const char *part)
 }
 
 /* The one address is where the library of the curves is from, in its heading. */
-static void test_lab_report_html__leak__needs_nothing_from_outside(void **state)
+TEST(test_lab_report_html__leak__needs_nothing_from_outside)
 {
   static const char *const links[] = {"http:", "src=", "url(", "@import", "<link", "fetch(", "import(", "XMLHttp"};
   size_t i;
@@ -224,7 +224,7 @@ static void test_lab_report_html__leak__needs_nothing_from_outside(void **state)
 }
 
 /* What is carried inside arrives as it is, long lines and all. */
-static void test_lab_page_text__library__is_the_file(void **state)
+TEST(test_lab_page_text__library__is_the_file)
 {
   cJSON *values = cJSON_CreateObject();
   char *template = lab_page_text("report", values),
@@ -236,7 +236,7 @@ static void test_lab_page_text__library__is_the_file(void **state)
   free(file);
 }
 
-static void test_lab_report_html__five_figures__ids_are_single_and_all_have_words(void **state)
+TEST(test_lab_report_html__five_figures__ids_are_single_and_all_have_words)
 {
   const char *at = the_page();
   assert_int_equal(count(at, "role=\"img\" aria-label=\""), 5);
@@ -284,7 +284,7 @@ static int column_of(const cJSON *all, int number, double value[ROWS])
 }
 
 /* Every value that is drawn is that of its row, as far as its digits go. */
-static void test_lab_report_html__curves__are_the_rows(void **state)
+TEST(test_lab_report_html__curves__are_the_rows)
 {
   static const char *const key[] = {"measured", "before", "after"};
   static double t[ROWS], value[ROWS];
@@ -328,7 +328,7 @@ static void set_effect(lab_rig *r, int param, double value)
 }
 
 /* Balance of forces by hand: p A(x) = k (x + x0) +- (F + f p). */
-static void test_lab_signature_make__effects_of_forces__balance_by_hand(void **state)
+TEST(test_lab_signature_make__effects_of_forces__balance_by_hand)
 {
   const double stroke = 0.02, k = 4e5, x0 = 0.01, F = 480, area = 0.04, f = 1e-3, a = 0.2;
   lab_rig r;
@@ -357,7 +357,7 @@ static void test_lab_signature_make__effects_of_forces__balance_by_hand(void **s
 }
 
 /* Every curve lies where the physics of the rig that made the log puts it; lines and table tell both models. */
-static void test_lab_report_html__signature__measured_found_and_declared(void **state)
+TEST(test_lab_report_html__signature__measured_found_and_declared)
 {
   static const char *const key[] = {"measured", "measured", "after", "after", "found",
                                     "found",    "found",    "sheet", "sheet", "sheet"};
@@ -396,7 +396,7 @@ static void test_lab_report_html__signature__measured_found_and_declared(void **
 
 /* ---- Content ---- */
 
-static void test_lab_report_html__leak__says_what_was_found(void **state)
+TEST(test_lab_report_html__leak__says_what_was_found)
 {
   assert_contains(the_page(), "<h1>The chamber leaks: 0.015");
   assert_contains(the_page(), " bar supply <code>chamber_leak</code>.</h1>\n<p>With it the error falls from ");
@@ -413,7 +413,7 @@ static void test_lab_report_html__leak__says_what_was_found(void **state)
 }
 
 /* Of the models that were tried one comes within odds of the best, which the page must not deny. */
-static void test_lab_report_html__rival_that_was_tried__is_not_denied(void **state)
+TEST(test_lab_report_html__rival_that_was_tried__is_not_denied)
 {
   static lab_search_result rival;
   static const char claim[] = "No other effect of the catalogue explains the log as well.";
@@ -432,7 +432,7 @@ static void test_lab_report_html__rival_that_was_tried__is_not_denied(void **sta
 }
 
 /* The log has no full stroke, so that its figures are reasons. */
-static void test_lab_report_html__figures_of_merit__or_why_not(void **state)
+TEST(test_lab_report_html__figures_of_merit__or_why_not)
 {
   lab_report without = report;
   assert_contains(the_page(), "<h2>Figures of merit</h2>");
@@ -442,13 +442,13 @@ static void test_lab_report_html__figures_of_merit__or_why_not(void **state)
   assert_null(strstr(page_of(&without, "without"), "Figures of merit"));
 }
 
-static void test_lab_report_html__names_of_files_and_rigs__are_escaped(void **state)
+TEST(test_lab_report_html__names_of_files_and_rigs__are_escaped)
 {
   assert_contains(the_page(), "R1 &lt;script&gt;alert(&quot;1&quot;)&lt;/script&gt; &amp; co");
   assert_contains(the_page(), "a&amp;b.csv");
 }
 
-static void test_lab_report_html__twice__same_bytes(void **state)
+TEST(test_lab_report_html__twice__same_bytes)
 {
   static const char *const names[] = {"report.html", "response.svg", "residual.svg", "arguments.svg",
                                       "autocorrelation.svg"};
@@ -471,7 +471,7 @@ static void test_lab_report_html__twice__same_bytes(void **state)
   }
 }
 
-static void test_lab_report_html__nothing_found_two_runs__is_told_as_well(void **state)
+TEST(test_lab_report_html__nothing_found_two_runs__is_told_as_well)
 {
   static lab_unknowns both;
   static lab_search_result nothing;
@@ -493,7 +493,7 @@ static void test_lab_report_html__nothing_found_two_runs__is_told_as_well(void *
 }
 
 /* The log without its pressure: set point and travel are all that many plants record. */
-static void test_lab_report_html__pressure_not_measured__is_said(void **state)
+TEST(test_lab_report_html__pressure_not_measured__is_said)
 {
   static lab_unknowns one;
   static lab_search_result nothing;
@@ -548,7 +548,7 @@ static const char *write_log_with_memory(const char *name)
   return write_rows(name);
 }
 
-static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it(void **state)
+TEST(test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it)
 {
   static lab_unknowns fitted;
   static lab_search_result outcome;
@@ -581,7 +581,7 @@ static void test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has
 
 /* One key, one meaning: what the refit of a candidate explains, found or not; before what is found is fitted to the
  * end, declared values follow straight lines, which costs some thousandths. */
-static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
+TEST(test_lab_report_json__explained__is_that_of_the_refit)
 {
   cJSON *root = cJSON_Parse(json_of(&report, "json")), *candidate;
   int refitted = 0, not_refitted = 0;
@@ -605,7 +605,7 @@ static void test_lab_report_json__explained__is_that_of_the_refit(void **state)
 
 /* ---- Evidence ---- */
 
-static void test_lab_residual_table_collect__leak__white_only_when_completed(void **state)
+TEST(test_lab_residual_table_collect__leak__white_only_when_completed)
 {
   lab_residual_table v;
   int c;
@@ -626,7 +626,7 @@ static void test_lab_residual_table_collect__leak__white_only_when_completed(voi
 }
 
 /* A remark is cut where it is full: its last clause is no sentence. */
-static void test_lab_report_undetermined__clause_that_was_cut__is_left_out(void **state)
+TEST(test_lab_report_undetermined__clause_that_was_cut__is_left_out)
 {
   static lab_search_result outcome;
   lab_report s = {0};
@@ -642,7 +642,7 @@ static void test_lab_report_undetermined__clause_that_was_cut__is_left_out(void 
                       "; the interval of unlisted_1.1 is wider");
 }
 
-static void test_lab_report_undetermined__clauses_on_instants__are_left_out(void **state)
+TEST(test_lab_report_undetermined__clauses_on_instants__are_left_out)
 {
   static lab_search_result outcome;
   lab_report s = {0};
@@ -660,27 +660,5 @@ static void test_lab_report_undetermined__clauses_on_instants__are_left_out(void
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_fault_of__bad_pages__are_seen),
-      cmocka_unit_test(test_lab_report_html__leak__page_is_well_formed),
-      cmocka_unit_test(test_lab_report_html__leak__needs_nothing_from_outside),
-      cmocka_unit_test(test_lab_page_text__library__is_the_file),
-      cmocka_unit_test(test_lab_report_html__five_figures__ids_are_single_and_all_have_words),
-      cmocka_unit_test(test_lab_report_html__curves__are_the_rows),
-      cmocka_unit_test(test_lab_signature_make__effects_of_forces__balance_by_hand),
-      cmocka_unit_test(test_lab_report_html__signature__measured_found_and_declared),
-      cmocka_unit_test(test_lab_report_html__pressure_not_measured__is_said),
-      cmocka_unit_test(test_lab_report_html__leak__says_what_was_found),
-      cmocka_unit_test(test_lab_report_html__rival_that_was_tried__is_not_denied),
-      cmocka_unit_test(test_lab_report_html__figures_of_merit__or_why_not),
-      cmocka_unit_test(test_lab_report_html__names_of_files_and_rigs__are_escaped),
-      cmocka_unit_test(test_lab_report_html__twice__same_bytes),
-      cmocka_unit_test(test_lab_report_html__nothing_found_two_runs__is_told_as_well),
-      cmocka_unit_test(test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it),
-      cmocka_unit_test(test_lab_report_json__explained__is_that_of_the_refit),
-      cmocka_unit_test(test_lab_residual_table_collect__leak__white_only_when_completed),
-      cmocka_unit_test(test_lab_report_undetermined__clauses_on_instants__are_left_out),
-      cmocka_unit_test(test_lab_report_undetermined__clause_that_was_cut__is_left_out),
-  };
-  return cmocka_run_group_tests(tests, begin_report, forget_report);
+  return tests_run(begin_report, forget_report);
 }

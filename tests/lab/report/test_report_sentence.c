@@ -23,7 +23,7 @@ static const char *say(int effect, int which, double value)
   return lab_effect_sentence(&rig, effect, param, sentence);
 }
 
-static void test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence(void **state)
+TEST(test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence)
 {
   int e, k, count;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
@@ -43,7 +43,7 @@ static void test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence(void
 /* Supply 4 bar, 25 degC, dead volume 2 mL, fill orifice 0.893 mm2, stroke 20 mm, spring 400 N/mm, 480 N of friction.
  * Choked flow is 0.0404 sqrt(K s2/m2) p/sqrt(T) per area: 0.013 mm2 x 501.3 kPa x 0.0404/sqrt(298.15 K) is 15.2
  * mg/s, 42.5 Nl/h. */
-static void test_lab_effect_sentence__sizes__by_hand(void **state)
+TEST(test_lab_effect_sentence__sizes__by_hand)
 {
   static const struct {
     int effect;
@@ -74,7 +74,7 @@ static void test_lab_effect_sentence__sizes__by_hand(void **state)
 }
 
 /* No friction to speak of, or none: it is no measure of 200 N. */
-static void test_lab_effect_sentence__share_of_nothing__is_left_out(void **state)
+TEST(test_lab_effect_sentence__share_of_nothing__is_left_out)
 {
   static const double friction[] = {0, 0.01};
   char sentence[LAB_EFFECT_SENTENCE];
@@ -135,7 +135,7 @@ static lab_deviation deviation(const char *name, double ratio, int beyond)
   return d;
 }
 
-static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(void **state)
+TEST(test_lab_report_sentence__verdicts__what_is_missing_then_the_error)
 {
   lab_report report = answer(LAB_VERDICT_EFFECT, 2);
   assert_string_equal(sentence_of(&report),
@@ -171,7 +171,7 @@ static void test_lab_report_sentence__verdicts__what_is_missing_then_the_error(v
 
 /* A search that was ended does not say that something is missing where only noise is left, and says so where more is.
  */
-static void test_lab_report_sentence__search_that_was_ended__claims_nothing(void **state)
+TEST(test_lab_report_sentence__search_that_was_ended__claims_nothing)
 {
   lab_report report = answer(LAB_VERDICT_UNDECIDED, 1);
   result.cut_short = 1;
@@ -188,7 +188,7 @@ static void test_lab_report_sentence__search_that_was_ended__claims_nothing(void
   assert_contains(sentence_of(&report), "Something is missing, and there was no time to find what. The residual is 1.52");
 }
 
-static void test_lab_report_limits__effects_scored_by_a_beginning__says_so(void **state)
+TEST(test_lab_report_limits__effects_scored_by_a_beginning__says_so)
 {
   lab_report report = answer(LAB_VERDICT_EFFECT, 1);
   cJSON *list = cJSON_CreateArray();
@@ -203,7 +203,7 @@ static void test_lab_report_limits__effects_scored_by_a_beginning__says_so(void 
   cJSON_Delete(list);
 }
 
-static void test_lab_report_headline__deviations__come_first_in_the_same_line(void **state)
+TEST(test_lab_report_headline__deviations__come_first_in_the_same_line)
 {
   lab_report report = answer(LAB_VERDICT_NONE, 0);
   lab_deviations *d = &report.deviations;
@@ -273,7 +273,7 @@ static void test_lab_report_headline__deviations__come_first_in_the_same_line(vo
 }
 
 /* Beside something that is missing, values are what makes up for it as well as it can. */
-static void test_lab_report_headline__undecided__tells_values_last_and_with_care(void **state)
+TEST(test_lab_report_headline__undecided__tells_values_last_and_with_care)
 {
   lab_report report = answer(LAB_VERDICT_UNDECIDED, 0);
   lab_deviations *d = &report.deviations;
@@ -313,7 +313,7 @@ static void test_lab_report_headline__undecided__tells_values_last_and_with_care
 }
 
 /* A value that changes within the log is told, though it stays within its tolerance. */
-static void test_lab_report_headline__value_that_changes__is_told_within_its_tolerance(void **state)
+TEST(test_lab_report_headline__value_that_changes__is_told_within_its_tolerance)
 {
   lab_report report = answer(LAB_VERDICT_NONE, 0);
   report.deviations.condition = LAB_CONDITION_AS_DECLARED;
@@ -333,7 +333,7 @@ static void test_lab_report_headline__value_that_changes__is_told_within_its_tol
 }
 
 /* Values and effects since the baseline are told as those of today are. */
-static void test_lab_report_headline__since_the_baseline__is_told_in_the_same_words(void **state)
+TEST(test_lab_report_headline__since_the_baseline__is_told_in_the_same_words)
 {
   static lab_changes changes;
   lab_report report = answer(LAB_VERDICT_NONE, 0);
@@ -362,7 +362,7 @@ static void test_lab_report_headline__since_the_baseline__is_told_in_the_same_wo
 }
 
 /* What to look at on the rig stands beside effects that there are. */
-static void test_inspect_def__each_line__is_of_an_effect(void **state)
+TEST(test_inspect_def__each_line__is_of_an_effect)
 {
   static const char *const names[] = {
 #define X(effect, text) #effect,
@@ -378,7 +378,7 @@ static void test_inspect_def__each_line__is_of_an_effect(void **state)
 }
 
 /* Of many cycles the best is tried: page and report.json tell the chance over all of them. */
-static void test_lab_report_chance__cycle__counts_what_was_looked_at(void **state)
+TEST(test_lab_report_chance__cycle__counts_what_was_looked_at)
 {
   lab_report report = answer(LAB_VERDICT_UNLISTED, 0);
   const lab_found free_term = {.effect = -1, .term = 0, .statistic = 40, .degrees = 3};
@@ -395,7 +395,7 @@ static void test_lab_report_chance__cycle__counts_what_was_looked_at(void **stat
 
 /* ---- Since when ---- */
 
-static void test_lab_report_since__interval__gives_its_digits(void **state)
+TEST(test_lab_report_since__interval__gives_its_digits)
 {
   const lab_onset sharp = {1, 12.3006, 12.29, 12.31}, blunt = {1, 9.42, 9.31, 11.25}, late = {1, 3620.4, 3601, 3655};
   char since[LAB_SINCE_TEXT];
@@ -407,20 +407,5 @@ static void test_lab_report_since__interval__gives_its_digits(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_report_since__interval__gives_its_digits),
-      cmocka_unit_test(test_lab_effect_sentence__each_at_its_usual_size__is_a_sentence),
-      cmocka_unit_test(test_lab_effect_sentence__sizes__by_hand),
-      cmocka_unit_test(test_lab_effect_sentence__share_of_nothing__is_left_out),
-      cmocka_unit_test(test_lab_report_sentence__verdicts__what_is_missing_then_the_error),
-      cmocka_unit_test(test_lab_report_sentence__search_that_was_ended__claims_nothing),
-      cmocka_unit_test(test_lab_report_limits__effects_scored_by_a_beginning__says_so),
-      cmocka_unit_test(test_lab_report_headline__deviations__come_first_in_the_same_line),
-      cmocka_unit_test(test_lab_report_headline__undecided__tells_values_last_and_with_care),
-      cmocka_unit_test(test_lab_report_headline__value_that_changes__is_told_within_its_tolerance),
-      cmocka_unit_test(test_lab_report_headline__since_the_baseline__is_told_in_the_same_words),
-      cmocka_unit_test(test_inspect_def__each_line__is_of_an_effect),
-      cmocka_unit_test(test_lab_report_chance__cycle__counts_what_was_looked_at),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

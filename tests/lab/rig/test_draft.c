@@ -51,7 +51,7 @@ static int is_fitted(const lab_rig *rig, const char *name)
 }
 
 /* The independent rig has 390 kN/m, 10 mm, 500 N, 0.893 mm2: starts of a fit, not its result. */
-static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **state)
+TEST(test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit)
 {
   static const char *const sheet[] = {"area=400 cm^2", "stroke=20 mm", "supply=400 kPa", "dead_volume=40 cm^3"};
   const lab_rig rig = draft_of(log_path, sheet, 4);
@@ -74,7 +74,7 @@ static void test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit(void **st
   assert_contains(text, "// name = \"...\"; // by default that of this file");
 }
 
-static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **state)
+TEST(test_lab_draft_write__words_of_the_sheet__are_not_fitted)
 {
   static const char *const sheet[] = {"bench_set=0.2..1.0 bar", "Kv=0.1",    "vent.xT=0.5",  "tube.length=2 m",
                                       "tube.bore=4 mm",         "name=FV 1", "flow=iso6358", "actuator.stroke=20 mm"};
@@ -89,7 +89,7 @@ static void test_lab_draft_write__words_of_the_sheet__are_not_fitted(void **stat
 }
 
 /* Bench set of 0.8 bar on 350 cm2 over 15 mm. */
-static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
+TEST(test_lab_draft_write__no_log_yet__is_all_of_the_sheet)
 {
   static const char *const sheet[] = {"area=350 cm2", "travel=15 mm", "bench_set=0.2..1.0 bar", "Kvs=0.1",
                                       "supply=1.4 bar"};
@@ -104,7 +104,7 @@ static void test_lab_draft_write__no_log_yet__is_all_of_the_sheet(void **state)
 }
 
 /* Its orifices pass what IEC 60534-2-1 says of Kv, xT 0.72, to 4.2 %: kg/s of air at 293.15 K from 7 bar. */
-static void test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says(void **state)
+TEST(test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says)
 {
   static const char *const sheet[] = {"area=350 cm2", "travel=15 mm", "bench_set=0.2..1.0 bar", "Kvs=0.1",
                                       "supply=1.4 bar"};
@@ -124,7 +124,7 @@ static void test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says
 }
 
 /* Without any sheet, a positioner's log with shares of the stroke: what is not known is marked. */
-static void test_lab_draft_write__files_of_loggers__are_read_with_their_draft(void **state)
+TEST(test_lab_draft_write__files_of_loggers__are_read_with_their_draft)
 {
   static const char *const files[] = {"excel-de.csv", "valvelink.csv", "numpy-savetxt.csv", "grafana.csv"};
   size_t i;
@@ -154,7 +154,7 @@ static void assert_no_word(const char *word, int status, const char *words)
 }
 
 /* What the sheet says of the positioner is declared, and not fitted. */
-static void test_lab_draft_write__positioner_of_the_sheet__is_declared(void **state)
+TEST(test_lab_draft_write__positioner_of_the_sheet__is_declared)
 {
   static const char *const sheet[] = {"area=400 cm2", "stroke=20 mm", "positioner.gain=39.6",
                                       "positioner.dead_band=0.27 %"};
@@ -165,7 +165,7 @@ static void test_lab_draft_write__positioner_of_the_sheet__is_declared(void **st
   assert_contains(text, "positioner = { gain = \"39.6\"; dead_band = \"0.27 %\"; }; // sheet");
 }
 
-static void test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused(void **state)
+TEST(test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused)
 {
   static const char *const twice[] = {"area=1 cm2", "area=2 cm2"};
   assert_no_word("aera=1 cm2", LAB_USAGE, "the nearest known one is \"area\"");
@@ -178,7 +178,7 @@ static void test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused(void **
   assert_contains(error.text, "area is there twice");
 }
 
-static void test_lab_draft_write__actuator_by_name__has_its_makers_values(void **state)
+TEST(test_lab_draft_write__actuator_by_name__has_its_makers_values)
 {
   static const struct {
     const char *name;
@@ -201,7 +201,7 @@ static void test_lab_draft_write__actuator_by_name__has_its_makers_values(void *
   }
 }
 
-static void test_lab_draft_write__actuator_by_name__the_sheet_comes_first(void **state)
+TEST(test_lab_draft_write__actuator_by_name__the_sheet_comes_first)
 {
   static const char *const sheet[] = {"actuator=hora-pa-n-280-30", "stroke=25 mm", "bench_set=0.8..2.4 bar"};
   static const char *const unknown[] = {"actuator=hora-pa-n-280"};
@@ -215,7 +215,7 @@ static void test_lab_draft_write__actuator_by_name__the_sheet_comes_first(void *
 }
 
 /* Areas by the same sheet in a rig file; what the sheet says of an orifice goes before what its positioner passes. */
-static void test_lab_draft_write__positioner_by_name__has_its_makers_values(void **state)
+TEST(test_lab_draft_write__positioner_by_name__has_its_makers_values)
 {
   static const struct {
     const char *word[2];
@@ -238,7 +238,7 @@ static void test_lab_draft_write__positioner_by_name__has_its_makers_values(void
   assert_contains(error.text, "samson-3730");
 }
 
-static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
+TEST(test_lab_sheet_ask__answers__are_words_of_the_sheet)
 {
   char given[] = "fisher-40\nfisher-657-40\n0.4 bar\n0.4..2 bar\n\n\n open\n\n 5 kg \n";
   char said[2048] = "";
@@ -267,18 +267,5 @@ static void test_lab_sheet_ask__answers__are_words_of_the_sheet(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_draft_write__log_and_sheet__are_a_start_for_a_fit),
-      cmocka_unit_test(test_lab_draft_write__words_of_the_sheet__are_not_fitted),
-      cmocka_unit_test(test_lab_draft_write__no_log_yet__is_all_of_the_sheet),
-      cmocka_unit_test(test_lab_draft_write__orifice_of_a_kv__passes_what_the_standard_says),
-      cmocka_unit_test(test_lab_draft_write__files_of_loggers__are_read_with_their_draft),
-      cmocka_unit_test(test_lab_draft_write__positioner_of_the_sheet__is_declared),
-      cmocka_unit_test(test_lab_draft_write__what_is_no_word_of_a_sheet__is_refused),
-      cmocka_unit_test(test_lab_draft_write__actuator_by_name__has_its_makers_values),
-      cmocka_unit_test(test_lab_draft_write__actuator_by_name__the_sheet_comes_first),
-      cmocka_unit_test(test_lab_draft_write__positioner_by_name__has_its_makers_values),
-      cmocka_unit_test(test_lab_sheet_ask__answers__are_words_of_the_sheet),
-  };
-  return cmocka_run_group_tests(tests, open_all, close_all);
+  return tests_run(open_all, close_all);
 }

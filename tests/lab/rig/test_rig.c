@@ -38,7 +38,7 @@ static double param(const lab_rig *rig, const char *effect, const char *name)
 
 /* ---- Reading ---- */
 
-static void test_lab_rig_read__every_parameter__lands_in_si(void **state)
+TEST(test_lab_rig_read__every_parameter__lands_in_si)
 {
   lab_rig rig = read_rig(declared);
   assert_close(rig.params.area, 0.0677, 0, 1e-14);
@@ -65,7 +65,7 @@ static void test_lab_rig_read__every_parameter__lands_in_si(void **state)
   assert_close(rig.params.polytropic_index, 1.2, 0, 1e-14);
 }
 
-static void test_lab_rig_read__what_is_not_said__is_assumed(void **state)
+TEST(test_lab_rig_read__what_is_not_said__is_assumed)
 {
   lab_rig rig = read_rig("actuator = { bench_set = [\"0.2 bar\", \"1 bar\"]; damping = \"9 N.s/m\"; };\n");
   assert_int_equal(rig.assumed[PNEU_PARAM_damping], 0);
@@ -74,7 +74,7 @@ static void test_lab_rig_read__what_is_not_said__is_assumed(void **state)
   assert_int_equal(rig.assumed[LAB_PARAM_ORIFICE_AREA], 0); /* a factor on what is said */
 }
 
-static void test_lab_rig_read__words__become_laws(void **state)
+TEST(test_lab_rig_read__words__become_laws)
 {
   lab_rig rig = read_rig(declared);
   assert_string_equal(rig.name, "37-13");
@@ -86,7 +86,7 @@ static void test_lab_rig_read__words__become_laws(void **state)
   assert_int_equal(rig.laws.position_input, 0);
 }
 
-static void test_lab_rig_read__fit_and_noise__are_listed(void **state)
+TEST(test_lab_rig_read__fit_and_noise__are_listed)
 {
   lab_rig rig = read_rig(declared);
   char name[LAB_PARAM_NAME_TEXT];
@@ -102,7 +102,7 @@ static void test_lab_rig_read__fit_and_noise__are_listed(void **state)
 }
 
 /* Shared ones first, in whatever order the lists stand. */
-static void test_lab_rig_read__fit_per_log__is_marked(void **state)
+TEST(test_lab_rig_read__fit_per_log__is_marked)
 {
   const lab_rig rig = read_rig("fit_per_log = ( \"damping\", \"orifice_area\" );\n"
                                "fit = ( \"moving_mass\", \"dry_friction\" );\n");
@@ -116,7 +116,7 @@ static void test_lab_rig_read__fit_per_log__is_marked(void **state)
   }
 }
 
-static void test_lab_rig_read__nothing_declared__takes_the_defaults(void **state)
+TEST(test_lab_rig_read__nothing_declared__takes_the_defaults)
 {
   lab_rig rig = read_rig("// all by default\n");
   pneu_params dflt;
@@ -132,7 +132,7 @@ static void test_lab_rig_read__nothing_declared__takes_the_defaults(void **state
   assert_int_equal(rig.log.delimiter, '\0'); /* to be guessed */
 }
 
-static void test_lab_rig_read__inputs__set_the_roles(void **state)
+TEST(test_lab_rig_read__inputs__set_the_roles)
 {
   lab_rig rig = read_rig("inputs = [ \"x\", \"p\" ];");
   assert_int_equal(rig.laws.pressure_input, 1);
@@ -144,13 +144,13 @@ static void test_lab_rig_read__inputs__set_the_roles(void **state)
   assert_int_equal(rig.input[LAB_CHANNEL_FORCE], 1);
 }
 
-static void test_lab_rig_read__zero_stroke__is_a_vessel(void **state)
+TEST(test_lab_rig_read__zero_stroke__is_a_vessel)
 {
   lab_rig rig = read_rig("actuator = { stroke = \"0 mm\"; };");
   assert_true(rig.params.stroke == 0);
 }
 
-static void test_lab_rig_read__fitted_effect__is_named_with_its_effect(void **state)
+TEST(test_lab_rig_read__fitted_effect__is_named_with_its_effect)
 {
   lab_rig rig;
   char name[LAB_PARAM_NAME_TEXT];
@@ -160,7 +160,7 @@ static void test_lab_rig_read__fitted_effect__is_named_with_its_effect(void **st
   assert_string_equal(lab_fit_name(rig.fit[0], name), "chamber_leak.leak_area");
 }
 
-static void test_lab_rig_read__effects__are_set_by_name(void **state)
+TEST(test_lab_rig_read__effects__are_set_by_name)
 {
   lab_rig rig;
   fixture_need("chamber_leak");
@@ -173,7 +173,7 @@ static void test_lab_rig_read__effects__are_set_by_name(void **state)
   assert_close(param(&rig, "supply_droop", "supply_resistance"), 0, 0, 0);
 }
 
-static void test_lab_rig_read__stribeck_law__switches_its_effect_on(void **state)
+TEST(test_lab_rig_read__stribeck_law__switches_its_effect_on)
 {
   lab_rig rig;
   fixture_need("stribeck_friction");
@@ -182,7 +182,7 @@ static void test_lab_rig_read__stribeck_law__switches_its_effect_on(void **state
   assert_true(param(&rig, "stribeck_friction", "stribeck_excess") > 0);
 }
 
-static void test_lab_rig_read__lugre_law__switches_its_effect_on(void **state)
+TEST(test_lab_rig_read__lugre_law__switches_its_effect_on)
 {
   lab_rig rig;
   fixture_need("presliding");
@@ -190,7 +190,7 @@ static void test_lab_rig_read__lugre_law__switches_its_effect_on(void **state)
   assert_true(param(&rig, "presliding", "presliding_length") > 0);
 }
 
-static void test_lab_rig_read__effects_before_laws__have_the_last_word(void **state)
+TEST(test_lab_rig_read__effects_before_laws__have_the_last_word)
 {
   lab_rig rig;
   fixture_need("stribeck_friction");
@@ -199,7 +199,7 @@ static void test_lab_rig_read__effects_before_laws__have_the_last_word(void **st
   assert_close(param(&rig, "stribeck_friction", "stribeck_excess"), 0.125, 0, 0);
 }
 
-static void test_lab_rig_read__log_group__becomes_the_format(void **state)
+TEST(test_lab_rig_read__log_group__becomes_the_format)
 {
   lab_rig rig = read_rig("log = { delimiter = \"tab\"; decimal = \",\"; thousands = \".\"; comment = \"%\";\n"
                          "  skip_lines = 3; columns = ( \"t [ms]\", \"-\", \"p_abs [hPa]\" );\n"
@@ -223,7 +223,7 @@ static void test_lab_rig_read__log_group__becomes_the_format(void **state)
   assert_true(isnan(rig.log.constant[LAB_CHANNEL_P]));
 }
 
-static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
+TEST(test_lab_rig_read__shape_of_a_log__is_read_and_written)
 {
   lab_rig rig = read_rig(
       "log = { columns = ( \"t [ms]\", \"p [bar]\", \"p [bar]\" ); weights = ( 1, 0.5, -0.25 ); every = 7; first = 2;\n"
@@ -255,7 +255,7 @@ static void test_lab_rig_read__shape_of_a_log__is_read_and_written(void **state)
   assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
 }
 
-static void test_lab_rig_read__long_log__lists_quantities(void **state)
+TEST(test_lab_rig_read__long_log__lists_quantities)
 {
   lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
                          "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
@@ -264,7 +264,7 @@ static void test_lab_rig_read__long_log__lists_quantities(void **state)
   assert_string_equal(rig.log.quantity[0].column, "p [bar]");
 }
 
-static void test_lab_rig_read__proportional_band__makes_the_command_a_pressure(void **state)
+TEST(test_lab_rig_read__proportional_band__makes_the_command_a_pressure)
 {
   lab_rig rig = read_rig("log = { constants = { u = \"80 kPa\"; }; };\n"
                          "transducer = { proportional_band = \"5 kPa\"; };");
@@ -272,7 +272,7 @@ static void test_lab_rig_read__proportional_band__makes_the_command_a_pressure(v
   assert_close(rig.log.constant[LAB_CHANNEL_U], 80000, 0, 1e-14);
 }
 
-static void test_lab_rig_read__no_fill_area__needs_no_supply(void **state)
+TEST(test_lab_rig_read__no_fill_area__needs_no_supply)
 {
   lab_rig rig = read_rig("supply = { pressure = 0; }; transducer = { fill_area = 0; };");
   assert_true(rig.params.supply_pressure == 0);
@@ -280,14 +280,14 @@ static void test_lab_rig_read__no_fill_area__needs_no_supply(void **state)
 
 /* ---- Bad files ---- */
 
-static void test_lab_rig_read__missing_file__says_so(void **state)
+TEST(test_lab_rig_read__missing_file__says_so)
 {
   lab_rig rig;
   assert_int_equal(lab_rig_read(scratch_path("none.cfg"), &rig, &error), LAB_DATA);
   assert_contains(error.text, "none.cfg: there is no such file");
 }
 
-static void test_lab_rig_read__binary_file__is_refused(void **state)
+TEST(test_lab_rig_read__binary_file__is_refused)
 {
   const char bytes[] = "\x7f"
                        "ELF\0\0\0\1";
@@ -296,7 +296,7 @@ static void test_lab_rig_read__binary_file__is_refused(void **state)
   assert_contains(error.text, "rig.cfg:1:");
 }
 
-static void test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where(void **state)
+TEST(test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where)
 {
   static const struct {
     const char *text, *place, *words;
@@ -396,7 +396,7 @@ static void test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where(void *
     assert_rig_refused(bad[i].text, bad[i].place, bad[i].words);
 }
 
-static void test_lab_rig_read__long_name__is_refused(void **state)
+TEST(test_lab_rig_read__long_name__is_refused)
 {
   char text[300] = "actuator = { name = \"";
   memset(text + strlen(text), 'n', 100);
@@ -404,14 +404,14 @@ static void test_lab_rig_read__long_name__is_refused(void **state)
   assert_rig_refused(text, "actuator.name", "at most 63 bytes, found 100");
 }
 
-static void test_lab_rig_read__effect_that_cannot_act__is_refused(void **state)
+TEST(test_lab_rig_read__effect_that_cannot_act__is_refused)
 {
   fixture_need("heat_transfer");
   assert_rig_refused("laws = { gas = \"isothermal\"; };\neffects = { heat_transfer = { free_convection = 1.5; }; };\n",
                      "effects.heat_transfer.free_convection", "does nothing with the other laws");
 }
 
-static void test_lab_rig_read__positioner_that_cannot_act__is_refused(void **state)
+TEST(test_lab_rig_read__positioner_that_cannot_act__is_refused)
 {
   fixture_need("positioner");
   assert_rig_refused("fit = ( \"positioner.gain\" );\n", "positioner.gain is to be fitted",
@@ -420,7 +420,7 @@ static void test_lab_rig_read__positioner_that_cannot_act__is_refused(void **sta
                      "cutoff_low, 99 %, is not below cutoff_high, 1 %");
 }
 
-static void test_lab_rig_read__bad_effects__are_refused(void **state)
+TEST(test_lab_rig_read__bad_effects__are_refused)
 {
   fixture_need("chamber_leak");
   assert_rig_refused("effects = { chamber_leek = { leak_area = 0; }; };\n", "effects.chamber_leek", "\"chamber_leak\"");
@@ -449,13 +449,13 @@ static void assert_comes_back(const lab_rig *rig)
   assert_same(rig, &again);
 }
 
-static void test_lab_rig_write__declared_rig__comes_back_bit_for_bit(void **state)
+TEST(test_lab_rig_write__declared_rig__comes_back_bit_for_bit)
 {
   lab_rig rig = read_rig(declared);
   assert_comes_back(&rig);
 }
 
-static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
+TEST(test_lab_rig_read__positioner__is_read_and_comes_back)
 {
   lab_rig rig;
   fixture_need("positioner");
@@ -482,7 +482,7 @@ static void test_lab_rig_read__positioner__is_read_and_comes_back(void **state)
 }
 
 /* The loop has worked before the record, unless the file says where its integral begins, or how well that is known. */
-static void test_lab_rig_free_integral__positioner_that_integrates__begins_anywhere_in_each_log(void **state)
+TEST(test_lab_rig_free_integral__positioner_that_integrates__begins_anywhere_in_each_log)
 {
   static const char *const known[] = {"positioner = { };\n",
                                       "positioner = { integral_time = \"5 s\"; integral_start = \"0 %\"; };\n",
@@ -505,7 +505,7 @@ static void test_lab_rig_free_integral__positioner_that_integrates__begins_anywh
   }
 }
 
-static void test_lab_rig_read__positioner_that_is_wrong__is_refused(void **state)
+TEST(test_lab_rig_read__positioner_that_is_wrong__is_refused)
 {
   fixture_need("positioner");
   assert_rig_refused("positioner = { gian = 20; };\n", "positioner.gian", "\"gain\"");
@@ -517,7 +517,7 @@ static void test_lab_rig_read__positioner_that_is_wrong__is_refused(void **state
                      "does nothing");
 }
 
-static void test_lab_rig_write__remark__heads_the_file(void **state)
+TEST(test_lab_rig_write__remark__heads_the_file)
 {
   lab_rig rig = read_rig(declared);
   char *text;
@@ -527,7 +527,7 @@ static void test_lab_rig_write__remark__heads_the_file(void **state)
   free(text);
 }
 
-static void test_lab_rig_read__too_many_quantities__are_refused(void **state)
+TEST(test_lab_rig_read__too_many_quantities__are_refused)
 {
   char text[2000] = "log = { quantities = {";
   int i;
@@ -537,7 +537,7 @@ static void test_lab_rig_read__too_many_quantities__are_refused(void **state)
   assert_rig_refused(text, "log.quantities", "at most 32 quantities");
 }
 
-static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(void **state)
+TEST(test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit)
 {
   lab_rig rig;
   int i;
@@ -556,7 +556,7 @@ static void test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit(vo
   assert_comes_back(&rig);
 }
 
-static void test_lab_rig_write__friction_law_fitted_to_nothing__stays_off(void **state)
+TEST(test_lab_rig_write__friction_law_fitted_to_nothing__stays_off)
 {
   lab_rig rig, again;
   fixture_need("stribeck_friction");
@@ -567,7 +567,7 @@ static void test_lab_rig_write__friction_law_fitted_to_nothing__stays_off(void *
   assert_same(&rig, &again);
 }
 
-static void test_lab_rig_write__log_group__comes_back(void **state)
+TEST(test_lab_rig_write__log_group__comes_back)
 {
   lab_rig rig = read_rig("inputs = [ \"p\", \"x\" ];\n"
                          "log = { delimiter = \"tab\"; decimal = \",\"; thousands = \"'\"; comment = \"\\\"\";\n"
@@ -577,7 +577,7 @@ static void test_lab_rig_write__log_group__comes_back(void **state)
   assert_comes_back(&rig);
 }
 
-static void test_lab_rig_write__long_log__comes_back(void **state)
+TEST(test_lab_rig_write__long_log__comes_back)
 {
   lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
                          "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
@@ -586,7 +586,7 @@ static void test_lab_rig_write__long_log__comes_back(void **state)
   assert_comes_back(&rig);
 }
 
-static void test_lab_rig_write__all_can_be_fitted__comes_back(void **state)
+TEST(test_lab_rig_write__all_can_be_fitted__comes_back)
 {
   lab_rig rig;
   int i;
@@ -597,7 +597,7 @@ static void test_lab_rig_write__all_can_be_fitted__comes_back(void **state)
   assert_comes_back(&rig);
 }
 
-static void test_lab_rig_write__each_its_own__comes_back(void **state)
+TEST(test_lab_rig_write__each_its_own__comes_back)
 {
   lab_rig rig = read_rig("fit_per_log = ( \"supply_pressure\", \"orifice_area\" ); fit = ( \"spring_rate\" );\n"
                          "unlisted = ( { equation = \"friction\"; argument = \"x\"; from = 0; to = \"20 mm\";\n"
@@ -614,7 +614,7 @@ static void test_lab_rig_write__each_its_own__comes_back(void **state)
   assert_same(&rig, &again);
 }
 
-static void test_lab_rig_model__good_rig__is_accepted(void **state)
+TEST(test_lab_rig_model__good_rig__is_accepted)
 {
   lab_rig rig = read_rig(declared);
   pneu_model model;
@@ -622,7 +622,7 @@ static void test_lab_rig_model__good_rig__is_accepted(void **state)
   assert_true(model.p.area == rig.params.area);
 }
 
-static void test_lab_rig_model__bad_parameter__is_named(void **state)
+TEST(test_lab_rig_model__bad_parameter__is_named)
 {
   lab_rig rig = read_rig(declared);
   pneu_model model;
@@ -633,46 +633,5 @@ static void test_lab_rig_model__bad_parameter__is_named(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_rig_read__every_parameter__lands_in_si),
-      cmocka_unit_test(test_lab_rig_read__what_is_not_said__is_assumed),
-      cmocka_unit_test(test_lab_rig_read__words__become_laws),
-      cmocka_unit_test(test_lab_rig_read__fit_and_noise__are_listed),
-      cmocka_unit_test(test_lab_rig_read__fit_per_log__is_marked),
-      cmocka_unit_test(test_lab_rig_read__nothing_declared__takes_the_defaults),
-      cmocka_unit_test(test_lab_rig_read__inputs__set_the_roles),
-      cmocka_unit_test(test_lab_rig_read__zero_stroke__is_a_vessel),
-      cmocka_unit_test(test_lab_rig_read__fitted_effect__is_named_with_its_effect),
-      cmocka_unit_test(test_lab_rig_read__effects__are_set_by_name),
-      cmocka_unit_test(test_lab_rig_read__stribeck_law__switches_its_effect_on),
-      cmocka_unit_test(test_lab_rig_read__lugre_law__switches_its_effect_on),
-      cmocka_unit_test(test_lab_rig_read__effects_before_laws__have_the_last_word),
-      cmocka_unit_test(test_lab_rig_read__log_group__becomes_the_format),
-      cmocka_unit_test(test_lab_rig_read__shape_of_a_log__is_read_and_written),
-      cmocka_unit_test(test_lab_rig_read__long_log__lists_quantities),
-      cmocka_unit_test(test_lab_rig_read__proportional_band__makes_the_command_a_pressure),
-      cmocka_unit_test(test_lab_rig_read__no_fill_area__needs_no_supply),
-      cmocka_unit_test(test_lab_rig_read__missing_file__says_so),
-      cmocka_unit_test(test_lab_rig_read__binary_file__is_refused),
-      cmocka_unit_test(test_lab_rig_read__bad_rig_file__says_what_is_wrong_and_where),
-      cmocka_unit_test(test_lab_rig_read__long_name__is_refused),
-      cmocka_unit_test(test_lab_rig_read__effect_that_cannot_act__is_refused),
-      cmocka_unit_test(test_lab_rig_read__positioner_that_cannot_act__is_refused),
-      cmocka_unit_test(test_lab_rig_read__bad_effects__are_refused),
-      cmocka_unit_test(test_lab_rig_write__declared_rig__comes_back_bit_for_bit),
-      cmocka_unit_test(test_lab_rig_read__positioner__is_read_and_comes_back),
-      cmocka_unit_test(test_lab_rig_free_integral__positioner_that_integrates__begins_anywhere_in_each_log),
-      cmocka_unit_test(test_lab_rig_read__positioner_that_is_wrong__is_refused),
-      cmocka_unit_test(test_lab_rig_write__remark__heads_the_file),
-      cmocka_unit_test(test_lab_rig_read__too_many_quantities__are_refused),
-      cmocka_unit_test(test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit),
-      cmocka_unit_test(test_lab_rig_write__friction_law_fitted_to_nothing__stays_off),
-      cmocka_unit_test(test_lab_rig_write__log_group__comes_back),
-      cmocka_unit_test(test_lab_rig_write__long_log__comes_back),
-      cmocka_unit_test(test_lab_rig_write__all_can_be_fitted__comes_back),
-      cmocka_unit_test(test_lab_rig_write__each_its_own__comes_back),
-      cmocka_unit_test(test_lab_rig_model__good_rig__is_accepted),
-      cmocka_unit_test(test_lab_rig_model__bad_parameter__is_named),
-  };
-  return cmocka_run_group_tests_name("rig", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -10,7 +10,7 @@ static double leak_of(lab_rig rig)
   return (double)*pneu_param_at(&rig.params, pneu_param_find("leak_area"));
 }
 
-static void test_lab_rig_at__onsets__act_from_their_times_on(void **state)
+TEST(test_lab_rig_at__onsets__act_from_their_times_on)
 {
   const lab_rig rig = read_rig(two);
   const double fill = (double)rig.params.fill_area;
@@ -27,7 +27,7 @@ static void test_lab_rig_at__onsets__act_from_their_times_on(void **state)
   assert_close(now.params.fill_area, 0.6 * fill, 0, 1e-12);
 }
 
-static void test_lab_rig_write__onsets__come_back_bit_for_bit(void **state)
+TEST(test_lab_rig_write__onsets__come_back_bit_for_bit)
 {
   const lab_rig rig = read_rig(two), again = write_and_read(&rig, NULL);
   int i;
@@ -39,7 +39,7 @@ static void test_lab_rig_write__onsets__come_back_bit_for_bit(void **state)
   }
 }
 
-static void test_lab_rig_read__onset_that_is_wrong__is_refused(void **state)
+TEST(test_lab_rig_read__onset_that_is_wrong__is_refused)
 {
   assert_rig_refused("onset = ( { parameter = \"dry_friction\"; from = 3; } );", "onset", "value is missing");
   assert_rig_refused("onset = ( { parameter = \"dry_fricton\"; from = 3; value = 4; } );", "onset", "dry_friction");
@@ -53,10 +53,5 @@ static void test_lab_rig_read__onset_that_is_wrong__is_refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_rig_at__onsets__act_from_their_times_on),
-      cmocka_unit_test(test_lab_rig_write__onsets__come_back_bit_for_bit),
-      cmocka_unit_test(test_lab_rig_read__onset_that_is_wrong__is_refused),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -29,7 +29,7 @@ static void assert_term(const pneu_term *t, int equation, int argument, double f
   assert_close(t->to, to, 0, 1e-14);
 }
 
-static void test_lab_rig_read__unlisted__becomes_terms_in_si(void **state)
+TEST(test_lab_rig_read__unlisted__becomes_terms_in_si)
 {
   const lab_rig rig = read_rig(declared);
   assert_int_equal(rig.n_terms, 4);
@@ -45,13 +45,13 @@ static void test_lab_rig_read__unlisted__becomes_terms_in_si(void **state)
   assert_close(rig.term[3].value[1], 2e99, 0, 0);
 }
 
-static void test_lab_rig_read__no_terms__are_none(void **state)
+TEST(test_lab_rig_read__no_terms__are_none)
 {
   assert_int_equal(read_rig("// none\n").n_terms, 0);
   assert_int_equal(read_rig("unlisted = ( );\n").n_terms, 0);
 }
 
-static void test_lab_rig_read__every_word__is_known(void **state)
+TEST(test_lab_rig_read__every_word__is_known)
 {
   int e, a;
   char text[300];
@@ -69,7 +69,7 @@ static void test_lab_rig_read__every_word__is_known(void **state)
     }
 }
 
-static void test_lab_rig_read__cycle__becomes_a_term_over_time(void **state)
+TEST(test_lab_rig_read__cycle__becomes_a_term_over_time)
 {
   const lab_rig rig = read_rig("unlisted = ( { equation = \"supply\"; argument = \"t\"; from = 0; to = \"250 ms\";\n"
                                "  unit = \"kPa\"; values = ( 0, -3.5, \"20 mbar\", 0.1 ); } );\n");
@@ -96,14 +96,14 @@ static void assert_refused(const char *part, const char *by, const char *place, 
   assert_rig_refused(text, place, words);
 }
 
-static void test_lab_rig_read__bad_words__name_the_nearest(void **state)
+TEST(test_lab_rig_read__bad_words__name_the_nearest)
 {
   assert_refused("force", "farce", "rig.cfg:2: unlisted[0].equation:", "nearest known one is \"force\"");
   assert_refused("\"x\"", "\"y\"", "rig.cfg:2: unlisted[0].argument:", "unknown word \"y\"");
   assert_refused("to =", "too =", "rig.cfg:4: unlisted[0].too:", "nearest known one is \"to\"");
 }
 
-static void test_lab_rig_read__missing_keys__are_named(void **state)
+TEST(test_lab_rig_read__missing_keys__are_named)
 {
   assert_refused("equation = \"force\";", "", "unlisted[0]:", "equation is missing");
   assert_refused("argument = \"x\";", "", "unlisted[0]:", "argument is missing");
@@ -112,7 +112,7 @@ static void test_lab_rig_read__missing_keys__are_named(void **state)
   assert_refused("values = [ 1, 2 ];", "", "unlisted[0]:", "values is missing");
 }
 
-static void test_lab_rig_read__bad_ends__are_refused(void **state)
+TEST(test_lab_rig_read__bad_ends__are_refused)
 {
   assert_refused("20 mm", "20 kPa", "rig.cfg:4: unlisted[0].to:", "kPa");
   assert_refused("20 mm", "0 mm", "rig.cfg:4: unlisted[0].to:", "more than from");
@@ -120,7 +120,7 @@ static void test_lab_rig_read__bad_ends__are_refused(void **state)
   assert_refused("\"0 mm\"", "1e999", "rig.cfg:3: unlisted[0].from:", "expected");
 }
 
-static void test_lab_rig_read__bad_values__are_refused(void **state)
+TEST(test_lab_rig_read__bad_values__are_refused)
 {
   char many[20 + 3 * (PNEU_TERM_KNOTS + 1)] = "[ 1";
   int i;
@@ -137,20 +137,20 @@ static void test_lab_rig_read__bad_values__are_refused(void **state)
 }
 
 /* A cosine goes with its sine. */
-static void test_lab_rig_read__odd_number_over_a_cycle__is_refused(void **state)
+TEST(test_lab_rig_read__odd_number_over_a_cycle__is_refused)
 {
   assert_rig_refused("unlisted = ( { equation = \"force\"; argument = \"t\"; from = 0;\n"
                      "  to = 2; values = [ 1, 2, 3 ]; } );\n",
                      "rig.cfg:2: unlisted[0].values: expected an even number of values", "a list of 3 entries");
 }
 
-static void test_lab_rig_read__bad_unit__is_refused(void **state)
+TEST(test_lab_rig_read__bad_unit__is_refused)
 {
   assert_refused("\"N\"", "\"kPa\"", "rig.cfg:5: unlisted[0].unit:", "kPa");
   assert_refused("\"N\"", "1", "unlisted[0].unit:", "a unit in quotes");
 }
 
-static void test_lab_rig_read__no_list_of_groups_or_too_many__is_refused(void **state)
+TEST(test_lab_rig_read__no_list_of_groups_or_too_many__is_refused)
 {
   static const char one[] = "{ equation = \"force\"; argument = \"x\"; from = 0; to = 1; values = [ 1, 2 ]; }";
   char text[1000];
@@ -160,7 +160,7 @@ static void test_lab_rig_read__no_list_of_groups_or_too_many__is_refused(void **
   assert_rig_refused(text, "unlisted", "0 to 4 entries");
 }
 
-static void test_lab_rig_read__heat_that_cannot_act__is_refused(void **state)
+TEST(test_lab_rig_read__heat_that_cannot_act__is_refused)
 {
   static const char *const laws[] = {"laws = { gas = \"isothermal\"; };", "laws = { gas = \"polytropic\"; };",
                                      "laws = { gas = \"energy\"; }; inputs = [ \"p\" ];"};
@@ -199,7 +199,7 @@ static lab_rig odd_rig(void)
   return rig;
 }
 
-static void test_lab_rig_write__terms__come_back_bit_for_bit(void **state)
+TEST(test_lab_rig_write__terms__come_back_bit_for_bit)
 {
   const lab_rig rig = odd_rig(), again = write_and_read(&rig, NULL);
   assert_int_equal(again.n_terms, LAB_TERM_MAX);
@@ -241,7 +241,7 @@ static char *printed_by_program(void)
   return scratch_read(scratch_path("shown"));
 }
 
-static void test_lab_terms_print_c__compiled_and_run__has_the_same_numbers(void **state)
+TEST(test_lab_terms_print_c__compiled_and_run__has_the_same_numbers)
 {
   static char want[16384];
   const lab_rig rig = odd_rig();
@@ -256,7 +256,7 @@ static void test_lab_terms_print_c__compiled_and_run__has_the_same_numbers(void 
   free(got);
 }
 
-static void test_lab_terms_print_c__no_terms__only_counts_them(void **state)
+TEST(test_lab_terms_print_c__no_terms__only_counts_them)
 {
   FILE *file = fopen(scratch_path("none.h"), "w");
   char *text;
@@ -270,7 +270,7 @@ static void test_lab_terms_print_c__no_terms__only_counts_them(void **state)
 
 /* ---- Models ---- */
 
-static void test_lab_rig_model__terms__are_those_of_the_rig(void **state)
+TEST(test_lab_rig_model__terms__are_those_of_the_rig)
 {
   const lab_rig rig = read_rig(declared), copy = rig;
   pneu_model model;
@@ -281,7 +281,7 @@ static void test_lab_rig_model__terms__are_those_of_the_rig(void **state)
   assert_ptr_equal(model.term, copy.term);
 }
 
-static void test_lab_rig_model__bad_term__is_refused(void **state)
+TEST(test_lab_rig_model__bad_term__is_refused)
 {
   lab_rig rig = read_rig(declared);
   pneu_model model;
@@ -291,7 +291,7 @@ static void test_lab_rig_model__bad_term__is_refused(void **state)
 }
 
 /* A prediction makes its model from a copy of the rig: a vessel that fills by a constant flow, p' = q R T/V. */
-static void test_lab_run_predict__terms__are_in_the_prediction(void **state)
+TEST(test_lab_run_predict__terms__are_in_the_prediction)
 {
   const lab_rig rig =
       read_rig("actuator = { stroke = 0; dead_volume = \"1 l\"; }; noise = { p = \"100 Pa\"; };\n"
@@ -313,25 +313,5 @@ static void test_lab_run_predict__terms__are_in_the_prediction(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_rig_read__unlisted__becomes_terms_in_si),
-      cmocka_unit_test(test_lab_rig_read__no_terms__are_none),
-      cmocka_unit_test(test_lab_rig_read__every_word__is_known),
-      cmocka_unit_test(test_lab_rig_read__cycle__becomes_a_term_over_time),
-      cmocka_unit_test(test_lab_rig_read__bad_words__name_the_nearest),
-      cmocka_unit_test(test_lab_rig_read__missing_keys__are_named),
-      cmocka_unit_test(test_lab_rig_read__bad_ends__are_refused),
-      cmocka_unit_test(test_lab_rig_read__bad_values__are_refused),
-      cmocka_unit_test(test_lab_rig_read__odd_number_over_a_cycle__is_refused),
-      cmocka_unit_test(test_lab_rig_read__bad_unit__is_refused),
-      cmocka_unit_test(test_lab_rig_read__no_list_of_groups_or_too_many__is_refused),
-      cmocka_unit_test(test_lab_rig_read__heat_that_cannot_act__is_refused),
-      cmocka_unit_test(test_lab_rig_write__terms__come_back_bit_for_bit),
-      cmocka_unit_test(test_lab_terms_print_c__compiled_and_run__has_the_same_numbers),
-      cmocka_unit_test(test_lab_terms_print_c__no_terms__only_counts_them),
-      cmocka_unit_test(test_lab_rig_model__terms__are_those_of_the_rig),
-      cmocka_unit_test(test_lab_rig_model__bad_term__is_refused),
-      cmocka_unit_test(test_lab_run_predict__terms__are_in_the_prediction),
-  };
-  return cmocka_run_group_tests_name("rigterm", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

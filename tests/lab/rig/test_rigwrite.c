@@ -347,7 +347,7 @@ static void assert_again(int number, const char *source)
     fail_msg("another %s; from\n%s\nand\n%s", what, scratch_read(source), scratch_read(model));
 }
 
-static void test_lab_rig_write__any_rig_that_is_read__is_read_again(void **state)
+TEST(test_lab_rig_write__any_rig_that_is_read__is_read_again)
 {
   int i, accepted = 0;
   for (i = 0; i < RIGS; i++) {
@@ -364,7 +364,7 @@ static void test_lab_rig_write__any_rig_that_is_read__is_read_again(void **state
 }
 
 /* A fit may end at a lag that is shorter than any that the model has: a file with it is refused. */
-static void test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_rest_stays(void **state)
+TEST(test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_rest_stays)
 {
   const int idle = pneu_param_find("position_lag.position_time"), acts = pneu_param_find("pressure_bias.pressure_bias");
   lab_rig_default(&rig);
@@ -380,9 +380,5 @@ static void test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_re
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_rig_write__any_rig_that_is_read__is_read_again),
-      cmocka_unit_test(test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_rest_stays),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -28,7 +28,7 @@ static void assert_refused(const char *more, const char *place, const char *word
 }
 
 /* In any order of the keys. */
-static void test_lab_sheet_read__bench_set__is_rate_and_preload(void **state)
+TEST(test_lab_sheet_read__bench_set__is_rate_and_preload)
 {
   lab_rig rig = read_sheet(
       "actuator = { bench_set = [\"0.2 bar\", \"1.0 bar\"]; area = \"400 cm^2\"; stroke = \"20 mm\"; };", "choked");
@@ -37,7 +37,7 @@ static void test_lab_sheet_read__bench_set__is_rate_and_preload(void **state)
 }
 
 /* pi/4 (226 mm)^2, which the bench set takes. */
-static void test_lab_sheet_read__diameter__is_an_area(void **state)
+TEST(test_lab_sheet_read__diameter__is_an_area)
 {
   lab_rig rig = read_sheet(
       "actuator = { bench_set = [\"0.2 bar\", \"1.0 bar\"]; diameter = \"226 mm\"; stroke = \"20 mm\"; };", "choked");
@@ -65,7 +65,7 @@ static void read_opening(const char *fail, double x[2], double sp[2])
   }
 }
 
-static void test_lab_sheet_read__fail__says_which_way_travel_counts(void **state)
+TEST(test_lab_sheet_read__fail__says_which_way_travel_counts)
 {
   double x[2], sp[2];
   int again;
@@ -81,7 +81,7 @@ static void test_lab_sheet_read__fail__says_which_way_travel_counts(void **state
   }
 }
 
-static void test_lab_sheet_read__orifices__pass_what_the_sheet_says(void **state)
+TEST(test_lab_sheet_read__orifices__pass_what_the_sheet_says)
 {
   static const struct {
     const char *words, *law;
@@ -112,7 +112,7 @@ static void test_lab_sheet_read__orifices__pass_what_the_sheet_says(void **state
 }
 
 /* The library's own sonic conductance of the area is the sheet's. */
-static void test_lab_sheet_read__C__comes_back_from_the_library(void **state)
+TEST(test_lab_sheet_read__C__comes_back_from_the_library)
 {
   lab_rig rig = read_sheet("transducer = { fill = { C = 5e-9; b = 0.25; }; vent = { Kv = 0.1; }; };", "iso6358");
   pneu_model model;
@@ -123,7 +123,7 @@ static void test_lab_sheet_read__C__comes_back_from_the_library(void **state)
 }
 
 /* Below Re = 2300 by Hagen and Poiseuille, above it by Blasius. */
-static void test_lab_sheet_read__tube__is_a_volume_and_a_resistance(void **state)
+TEST(test_lab_sheet_read__tube__is_a_volume_and_a_resistance)
 {
   const int resistance = pneu_param_find("connecting_tube.tube_resistance");
   const int volume = pneu_param_find("connecting_tube.tube_volume");
@@ -139,7 +139,7 @@ static void test_lab_sheet_read__tube__is_a_volume_and_a_resistance(void **state
   assert_close((double)*pneu_param_at(&rig.params, resistance), 12811831.903400254, 0, 1e-6);
 }
 
-static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
+TEST(test_lab_sheet_read__what_cannot_be__is_refused)
 {
   assert_refused("actuator = { bench_set = [\"1 bar\", \"0.2 bar\"]; };", "actuator.bench_set", "lower pressure first");
   assert_refused("actuator = { bench_set = [\"1 bar\"]; };", "actuator.bench_set", "2 to 2 entries");
@@ -179,7 +179,7 @@ static void test_lab_sheet_read__what_cannot_be__is_refused(void **state)
 }
 
 /* model.cfg holds the numbers. */
-static void test_lab_rig_write__of_words__gives_the_same_model(void **state)
+TEST(test_lab_rig_write__of_words__gives_the_same_model)
 {
   lab_rig rig, again;
   rig = read_sheet(
@@ -192,15 +192,5 @@ static void test_lab_rig_write__of_words__gives_the_same_model(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_sheet_read__bench_set__is_rate_and_preload),
-      cmocka_unit_test(test_lab_sheet_read__diameter__is_an_area),
-      cmocka_unit_test(test_lab_sheet_read__fail__says_which_way_travel_counts),
-      cmocka_unit_test(test_lab_sheet_read__orifices__pass_what_the_sheet_says),
-      cmocka_unit_test(test_lab_sheet_read__C__comes_back_from_the_library),
-      cmocka_unit_test(test_lab_sheet_read__tube__is_a_volume_and_a_resistance),
-      cmocka_unit_test(test_lab_sheet_read__what_cannot_be__is_refused),
-      cmocka_unit_test(test_lab_rig_write__of_words__gives_the_same_model),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

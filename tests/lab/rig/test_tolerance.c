@@ -27,7 +27,7 @@ static int bias(void)
   return -1;
 }
 
-static void test_lab_tolerance__no_group__is_the_default_of_the_kind(void **state)
+TEST(test_lab_tolerance__no_group__is_the_default_of_the_kind)
 {
   rig = read_rig(with(""));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 0.1 * 4e5, 0, 1e-12);
@@ -46,7 +46,7 @@ static void assert_tolerance(const char *group, int param, double want)
 }
 
 /* Where one factor of both areas is fitted, the vent is still off beside the fill orifice. */
-static void test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_a_quarter(void **state)
+TEST(test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_a_quarter)
 {
   const int vent = pneu_param_find("vent_restriction");
   if (vent < 0)
@@ -58,7 +58,7 @@ static void test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_
   assert_tolerance("fit = (\"orifice_area\"); tolerance = { others = 0; };", vent, 0);
 }
 
-static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
+TEST(test_lab_tolerance_read__share_and_quantity__are_in_si)
 {
   rig = read_rig(with("tolerance = { spring_rate = \"5 %\"; dead_volume = \"20 cm^3\"; pressure_bias = \"1 %\"; };"));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
@@ -67,7 +67,7 @@ static void test_lab_tolerance_read__share_and_quantity__are_in_si(void **state)
 }
 
 /* Wherever the group stands: a share of the supply is one of what the file declares. */
-static void test_lab_tolerance_read__positioner__is_a_share_of_its_own_value(void **state)
+TEST(test_lab_tolerance_read__positioner__is_a_share_of_its_own_value)
 {
   const int gain = pneu_param_find("gain");
   assert_string_equal(lab_tolerance_name(gain), "positioner.gain");
@@ -77,21 +77,21 @@ static void test_lab_tolerance_read__positioner__is_a_share_of_its_own_value(voi
   assert_tolerance("", gain, 0);
 }
 
-static void test_lab_tolerance_read__others__are_exact(void **state)
+TEST(test_lab_tolerance_read__others__are_exact)
 {
   rig = read_rig(with("tolerance = { others = 0; spring_rate = \"5 %\"; };"));
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dry_friction), 0, 0, 0);
 }
 
-static void test_lab_tolerance_read__resolution__is_none_unless_given(void **state)
+TEST(test_lab_tolerance_read__resolution__is_none_unless_given)
 {
   rig = read_rig(with("tolerance = { pressure_resolution = \"1 kPa\"; };"));
   assert_close(lab_tolerance(&rig, LAB_PRESSURE_RESOLUTION), 1000, 0, 1e-12);
   assert_close(lab_tolerance(&rig, LAB_POSITION_RESOLUTION), 0, 0, 0);
 }
 
-static void test_lab_tolerance_read__mistakes__are_named(void **state)
+TEST(test_lab_tolerance_read__mistakes__are_named)
 {
   assert_rig_refused(with("tolerance = { sprig_rate = \"5 %\"; };"), "tolerance.sprig_rate:", "spring_rate");
   assert_rig_refused(with("tolerance = { spring_rate = \"-5 %\"; };"),
@@ -99,7 +99,7 @@ static void test_lab_tolerance_read__mistakes__are_named(void **state)
   assert_rig_refused(with("tolerance = { dead_volume = \"5 s\"; };"), "tolerance.dead_volume:", "unit");
 }
 
-static void test_lab_tolerance_write__given_ones__are_read_again(void **state)
+TEST(test_lab_tolerance_write__given_ones__are_read_again)
 {
   rig = read_rig(with("tolerance = { others = 0; clock = \"5 ms\"; spring_rate = \"5 %\"; };"));
   rig = write_and_read(&rig, NULL);
@@ -109,15 +109,5 @@ static void test_lab_tolerance_write__given_ones__are_read_again(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_tolerance__no_group__is_the_default_of_the_kind),
-      cmocka_unit_test(test_lab_tolerance__orifice_area_is_fitted__their_ratio_is_known_to_a_quarter),
-      cmocka_unit_test(test_lab_tolerance_read__share_and_quantity__are_in_si),
-      cmocka_unit_test(test_lab_tolerance_read__positioner__is_a_share_of_its_own_value),
-      cmocka_unit_test(test_lab_tolerance_read__others__are_exact),
-      cmocka_unit_test(test_lab_tolerance_read__resolution__is_none_unless_given),
-      cmocka_unit_test(test_lab_tolerance_read__mistakes__are_named),
-      cmocka_unit_test(test_lab_tolerance_write__given_ones__are_read_again),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -444,7 +444,7 @@ static int comparable(const effect_case *c, int gas)
   return pneu_effect_find(c->name) >= 0;
 }
 
-static void test_lab_response_run__base_model__is_that_of_the_second_implementation(void **state)
+TEST(test_lab_response_run__base_model__is_that_of_the_second_implementation)
 {
   static const apart most = {3e-6, 1e-7, 2e-6}; /* as for the effects */
   int law;
@@ -454,7 +454,7 @@ static void test_lab_response_run__base_model__is_that_of_the_second_implementat
   }
 }
 
-static void test_lab_response_run__each_effect__is_that_of_the_second_implementation(void **state)
+TEST(test_lab_response_run__each_effect__is_that_of_the_second_implementation)
 {
   int law, i;
   for (i = 0; i < COUNT(cases); i++)
@@ -469,7 +469,7 @@ static void test_lab_response_run__each_effect__is_that_of_the_second_implementa
     }
 }
 
-static void test_lab_response_run__lines__are_those_of_the_second_implementation(void **state)
+TEST(test_lab_response_run__lines__are_those_of_the_second_implementation)
 {
   static const int law[][2] = {{PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER},
                                {PNEU_GAS_ENERGY, PNEU_FLOW_CHOKED},
@@ -487,7 +487,7 @@ static void test_lab_response_run__lines__are_those_of_the_second_implementation
     }
 }
 
-static void test_lab_response_run__exponent__is_that_of_the_second_implementation(void **state)
+TEST(test_lab_response_run__exponent__is_that_of_the_second_implementation)
 {
   int flow;
   fixture_need(exponent.name);
@@ -501,7 +501,7 @@ static void test_lab_response_run__exponent__is_that_of_the_second_implementatio
   }
 }
 
-static void test_lab_response_run__start_temperature__is_that_of_the_second_implementation(void **state)
+TEST(test_lab_response_run__start_temperature__is_that_of_the_second_implementation)
 {
   int i;
   fixture_need(begins.name);
@@ -512,7 +512,7 @@ static void test_lab_response_run__start_temperature__is_that_of_the_second_impl
   }
 }
 
-static void test_lab_response_run__long_chamber__is_that_of_the_second_implementation(void **state)
+TEST(test_lab_response_run__long_chamber__is_that_of_the_second_implementation)
 {
   int i;
   fixture_need(along.name);
@@ -524,7 +524,7 @@ static void test_lab_response_run__long_chamber__is_that_of_the_second_implement
   }
 }
 
-static void test_lab_response_run__positioner__is_that_of_the_second_implementation(void **state)
+TEST(test_lab_response_run__positioner__is_that_of_the_second_implementation)
 {
   int law, i;
   fixture_need("positioner");
@@ -558,7 +558,7 @@ static double off_turns(const char *name, double seconds)
 }
 
 /* Within the loop a dead time is made of lags: nearer to it than one lag of the same length is, or none. */
-static void test_lab_response_run__dead_time_of_a_positioner__is_nearly_that_of_one_that_works_by_turns(void **state)
+TEST(test_lab_response_run__dead_time_of_a_positioner__is_nearly_that_of_one_that_works_by_turns)
 {
   double off, lag, none;
   fixture_need("positioner");
@@ -587,7 +587,7 @@ static void set_some(run *e, int n, double share, uint64_t *seed, char *what, si
 
 /* Some of the effects at once, at random sizes: order and interplay. Effects that are newer than the first sets take
  * part in the last ones only, lest the first become others. */
-static void test_lab_response_run__random_sets_of_effects__agree_with_the_second_implementation(void **state)
+TEST(test_lab_response_run__random_sets_of_effects__agree_with_the_second_implementation)
 {
   enum { FIRST_SETS = 8, NEWER = 2 };
   static const apart most[] = {{2e-6, 3e-9, 3e-15}, {7e-7, 6e-7, 2e-7}, {7e-6, 5e-6, 3e-15}, {6e-7, 3e-9, 3e-9},
@@ -606,7 +606,7 @@ static void test_lab_response_run__random_sets_of_effects__agree_with_the_second
 }
 
 /* Each line beside some of the effects, what it has in common with them as its row says. */
-static void test_lab_response_run__lines_in_random_sets__agree_with_the_second_implementation(void **state)
+TEST(test_lab_response_run__lines_in_random_sets__agree_with_the_second_implementation)
 {
   static const apart most[COUNT(lines)] = {{2e-7, 2e-8, 3e-15}, {2e-7, 3e-8, 3e-15}, {3e-6, 2e-6, 2e-6},
                                            {4e-8, 2e-9, 2e-7},  {7e-5, 2e-6, 3e-15}, {7e-7, 2e-7, 3e-15},
@@ -777,7 +777,7 @@ static void check_term(const term_case *c, const int *law, int knots)
   assert_true(fmax(without.p, without.x) > 10 * fmax(d.p, d.x));
 }
 
-static void test_lab_response_run__table_of_what_has_no_effect__is_that_of_the_second_implementation(void **state)
+TEST(test_lab_response_run__table_of_what_has_no_effect__is_that_of_the_second_implementation)
 {
   int law, i;
   for (i = 0; i < COUNT(terms); i++)
@@ -788,7 +788,7 @@ static void test_lab_response_run__table_of_what_has_no_effect__is_that_of_the_s
       }
 }
 
-static void test_effects_def__each_effect__is_compared(void **state)
+TEST(test_effects_def__each_effect__is_compared)
 {
   int e, i, found;
   for (e = 0; e < PNEU_EFFECT_COUNT; e++) {
@@ -806,20 +806,5 @@ static void test_effects_def__each_effect__is_compared(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_response_run__table_of_what_has_no_effect__is_that_of_the_second_implementation),
-      cmocka_unit_test(test_effects_def__each_effect__is_compared),
-      cmocka_unit_test(test_lab_response_run__base_model__is_that_of_the_second_implementation),
-      cmocka_unit_test(test_lab_response_run__each_effect__is_that_of_the_second_implementation),
-      cmocka_unit_test(test_lab_response_run__lines__are_those_of_the_second_implementation),
-      cmocka_unit_test(test_lab_response_run__exponent__is_that_of_the_second_implementation),
-      cmocka_unit_test(test_lab_response_run__long_chamber__is_that_of_the_second_implementation),
-      cmocka_unit_test(test_lab_response_run__start_temperature__is_that_of_the_second_implementation),
-      cmocka_unit_test(
-          test_lab_response_run__dead_time_of_a_positioner__is_nearly_that_of_one_that_works_by_turns),
-      cmocka_unit_test(test_lab_response_run__positioner__is_that_of_the_second_implementation),
-      cmocka_unit_test(test_lab_response_run__random_sets_of_effects__agree_with_the_second_implementation),
-      cmocka_unit_test(test_lab_response_run__lines_in_random_sets__agree_with_the_second_implementation),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -86,7 +86,7 @@ static void check_delay(double delay, size_t n, const double *t, const int (*row
   lab_response_free(&b);
 }
 
-static void test_lab_response_run__dead_time__delays_the_command_and_nothing_else(void **state)
+TEST(test_lab_response_run__dead_time__delays_the_command_and_nothing_else)
 {
   static const double t[] = {0, 0.221, 0.7, 1.1, 1.121, 1.13, 1.151, 2.021};
   static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {1, 3}, {3, 3}, {3, 4}, {4, 4}, {5, 5}};
@@ -94,7 +94,7 @@ static void test_lab_response_run__dead_time__delays_the_command_and_nothing_els
   check_delay(0.021, 8, t, row);
 }
 
-static void test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_their_order(void **state)
+TEST(test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_their_order)
 {
   static const double t[] = {0, 0.7, 0.75, 1.13, 1.65, 1.68, 2.55};
   static const int row[][2] = {{0, 0}, {0, 2}, {1, 2}, {1, 4}, {3, 4}, {4, 4}, {5, 5}};
@@ -103,7 +103,7 @@ static void test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_
 }
 
 /* 1.1 + 0.03 and 1.13 are apart by rounding. */
-static void test_lab_response_run__dead_time_that_ends_with_another_change__makes_one_of_them(void **state)
+TEST(test_lab_response_run__dead_time_that_ends_with_another_change__makes_one_of_them)
 {
   static const double t[] = {0, 0.23, 0.7, 1.13, 1.16, 2.03};
   static const int row[][2] = {{0, 0}, {1, 0}, {1, 2}, {3, 4}, {4, 4}, {5, 5}};
@@ -160,13 +160,13 @@ static void check_ramp(const pneu_model *m)
   lab_response_free(&c);
 }
 
-static void test_lab_response_run__ramp__is_a_staircase_of_small_steps(void **state)
+TEST(test_lab_response_run__ramp__is_a_staircase_of_small_steps)
 {
   const pneu_model m = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
   check_ramp(&m);
 }
 
-static void test_lab_response_run__ramp_that_comes_late__the_same(void **state)
+TEST(test_lab_response_run__ramp_that_comes_late__the_same)
 {
   const pneu_model m = fixture_quick(PNEU_GAS_ISOTHERMAL, "dead_time", 0.37);
   fixture_need("dead_time");
@@ -175,7 +175,7 @@ static void test_lab_response_run__ramp_that_comes_late__the_same(void **state)
 
 /* A valve signature: an actuator of 677 cm2 follows a set position that rises in 100 s, in and out of the dead band of
  * its positioner some ninety times a second. A fit lets a model take 20000 steps in ten seconds. */
-static void test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed(void **state)
+TEST(test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed)
 {
   static const double row[] = {0, 100}, at[] = {0, 20, 40, 60, 80, 100};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -239,7 +239,7 @@ static void check_skew(double skew, int integrator)
   lab_response_free(&now);
 }
 
-static void test_lab_response_run__channel_skew__shifts_position_alone(void **state)
+TEST(test_lab_response_run__channel_skew__shifts_position_alone)
 {
   static const double skew[] = {0.037, -0.016, 0.6, 50};
   int i;
@@ -250,7 +250,7 @@ static void test_lab_response_run__channel_skew__shifts_position_alone(void **st
 }
 
 /* A younger position: the stem goes on beyond the last sample under the last command. */
-static void test_lab_response_run__negative_skew__looks_beyond_the_end(void **state)
+TEST(test_lab_response_run__negative_skew__looks_beyond_the_end)
 {
   const double ahead = 0.05;
   pneu_model skewed, plain;
@@ -270,7 +270,7 @@ static void test_lab_response_run__negative_skew__looks_beyond_the_end(void **st
   lab_response_free(&b);
 }
 
-static void test_lab_response_run__statistics_only__needs_no_trace(void **state)
+TEST(test_lab_response_run__statistics_only__needs_no_trace)
 {
   pneu_model m;
   pneu_input input[2];
@@ -305,7 +305,7 @@ static double cycle_at(const pneu_term *term, double t)
 }
 
 /* The strokes of the rows under what comes in cycles: both integrators carry the clock. */
-static void test_lab_response_run__cycles__are_the_same_by_stepper_and_cvode(void **state)
+TEST(test_lab_response_run__cycles__are_the_same_by_stepper_and_cvode)
 {
   const pneu_term term[] = {cycle(PNEU_TERM_FORCE, 0.31, 700), cycle(PNEU_TERM_SUPPLY, 0.9, 4e4),
                             cycle(PNEU_TERM_FLOW, 0.2, 5e-4), cycle(PNEU_TERM_FRICTION, 1.3, 200)};
@@ -367,7 +367,7 @@ static void check_own_time(double skew, int integrator)
   lab_response_free(&response);
 }
 
-static void test_lab_response_run__cycles__go_by_the_time_of_the_schedule(void **state)
+TEST(test_lab_response_run__cycles__go_by_the_time_of_the_schedule)
 {
   check_own_time(0, LAB_STEPPER);
   check_own_time(0, LAB_CVODE);
@@ -375,7 +375,7 @@ static void test_lab_response_run__cycles__go_by_the_time_of_the_schedule(void *
 }
 
 /* The stem has sunk into a stop that yields; from the second row on the stop is rigid. */
-static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at_the_stroke(void **state)
+TEST(test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at_the_stroke)
 {
   const pneu_model yields = fixture_quick(PNEU_GAS_ISOTHERMAL, "stop_compliance.stop_compliance", 1e-8),
                    rigid = fixture_quick(PNEU_GAS_ISOTHERMAL, NULL, 0);
@@ -394,7 +394,7 @@ static void test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at
 }
 
 /* Shut air that keeps its heat and began too warm: another model goes on from what it is, and adds no excess again. */
-static void test_lab_response_run__air_that_began_warm__goes_on_as_it_is(void **state)
+TEST(test_lab_response_run__air_that_began_warm__goes_on_as_it_is)
 {
   const double t_row[2] = {0, 2}, t[2] = {1.99, 3}, warm = 298.15 + 30;
   pneu_params p = fixture_vessel(1e-3);
@@ -420,20 +420,5 @@ static void test_lab_response_run__air_that_began_warm__goes_on_as_it_is(void **
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_response_run__ramp__is_a_staircase_of_small_steps),
-      cmocka_unit_test(test_lab_response_run__ramp_that_comes_late__the_same),
-      cmocka_unit_test(test_lab_response_run__slow_ramp_behind_a_dead_band__is_followed),
-      cmocka_unit_test(test_lab_response_run__dead_time__delays_the_command_and_nothing_else),
-      cmocka_unit_test(test_lab_response_run__dead_time_that_ends_with_another_change__makes_one_of_them),
-      cmocka_unit_test(test_lab_response_run__dead_time_beyond_the_shortest_command__keeps_their_order),
-      cmocka_unit_test(test_lab_response_run__channel_skew__shifts_position_alone),
-      cmocka_unit_test(test_lab_response_run__negative_skew__looks_beyond_the_end),
-      cmocka_unit_test(test_lab_response_run__statistics_only__needs_no_trace),
-      cmocka_unit_test(test_lab_response_run__cycles__are_the_same_by_stepper_and_cvode),
-      cmocka_unit_test(test_lab_response_run__cycles__go_by_the_time_of_the_schedule),
-      cmocka_unit_test(test_lab_response_run__stop_that_no_longer_yields__holds_the_stem_at_the_stroke),
-      cmocka_unit_test(test_lab_response_run__air_that_began_warm__goes_on_as_it_is),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

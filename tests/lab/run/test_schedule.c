@@ -33,6 +33,8 @@ static int forget(void **state)
   return 0;
 }
 
+#define CASE(name) TEST_WITH(name, fresh_rig, forget)
+
 static void set_inputs(int p, int x, int ps, int force)
 {
   rig.input[LAB_CHANNEL_P] = (unsigned char)p;
@@ -59,7 +61,7 @@ static void drive(size_t run)
 /* ---- Schedules ---- */
 
 /* A pressure that turns between two rows goes to where it turns and on from there. */
-static void test_lab_inputs_from_log__bend__is_an_entry_of_its_own(void **state)
+CASE(test_lab_inputs_from_log__bend__is_an_entry_of_its_own)
 {
   const lab_bend bends[] = {{0.5, 8e3}, {NAN, NAN}, {NAN, NAN}};
   read_log("t [s],p [kPa]\n0,0\n1,10\n2,12\n");
@@ -87,7 +89,7 @@ static void assert_commands(const lab_schedule *s, const double row[][3], int n)
   }
 }
 
-static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state)
+CASE(test_lab_inputs_from_log__equal_commands__are_one_entry)
 {
   static const double row[][3] = {{0, 0, 0}, {2, 1, 0}, {4, -0.5, 0}};
   read_log("t [s],u [1]\n0,0\n1,0\n2,1\n3,1\n4,-0.5\n5,-0.5\n");
@@ -97,7 +99,7 @@ static void test_lab_inputs_from_log__equal_commands__are_one_entry(void **state
   assert_close(inputs.schedule.input[0].pressure_rate, 0, 0, 0);
 }
 
-static void test_lab_inputs_from_log__ramp__runs_along_lines(void **state)
+CASE(test_lab_inputs_from_log__ramp__runs_along_lines)
 {
   static const double row[][3] = {{0, 0, 0}, {1, 0, 0.1}, {3.5, 0.25, 0}, {6, 1, 0}};
   const lab_schedule *s = &inputs.schedule;
@@ -125,27 +127,27 @@ static void check_corners(const char *rows, double begin, double end, double to)
   assert_close(s->input[2].u_rate, 0, 0, 0);
 }
 
-static void test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there(void **state)
+CASE(test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there)
 {
   check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.04,0\n3,0.14,0\n4,0.24,0\n5,0.34,0\n6,0.4,0\n7,0.4,0\n", 1.6,
                 5.6, 0.4);
 }
 
 /* A row and a bit long: its beginning and its end are too small a part of it to be of a like pace. */
-static void test_lab_inputs_from_log__short_ramp__is_no_jump(void **state)
+CASE(test_lab_inputs_from_log__short_ramp__is_no_jump)
 {
   check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n2,0.08,0\n3,0.88,0\n4,1,0\n5,1,0\n", 1.9, 3.15, 1);
 }
 
 /* Rows that were lost do not make a jump of it. */
-static void test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace(void **state)
+CASE(test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace)
 {
   check_corners("t [s],u [1],p [kPa]\n0,0,0\n1,0,0\n8,0.55,0\n9,0.65,0\n10,0.75,0\n11,0.8,0\n12,0.8,0\n", 2.5, 10.5,
                 0.8);
 }
 
 /* What a positioner sends: it jumps somewhere in the row before, holds, and then runs along with the stem. */
-static void test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_between_two_rows(void **state)
+CASE(test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_between_two_rows)
 {
   static const double row[][3] = {{0, 0, 0}, {3, -1, 0}, {3, -1, 0.3}, {4, -0.7, 0.2}, {6, -0.3, 0}};
   lab_run run;
@@ -160,7 +162,7 @@ static void test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_betwee
 }
 
 /* Rounded to steps of 0.01: one line within a step; where the supply is measured too, all rows of it. */
-static void test_lab_inputs_from_log__rounded_ramp__is_one_line(void **state)
+CASE(test_lab_inputs_from_log__rounded_ramp__is_one_line)
 {
   static const char plain[] = "t [s],u [1],p "
                               "[kPa]\n0,0,0\n1,0.01,0\n2,0.03,0\n3,0.04,0\n4,0.06,0\n5,0.07,0\n6,0.08,0\n7,0.1,0\n8,0."
@@ -189,7 +191,7 @@ static void declare_positioner(void)
 
 /* A ramp so slow that rounding makes stairs of it, which are none: one line within a step from row 1 to the last step,
  * and the level after it. */
-static void test_lab_inputs_from_log__stairs_of_single_roundings__are_one_line(void **state)
+CASE(test_lab_inputs_from_log__stairs_of_single_roundings__are_one_line)
 {
   char text[4096] = "t [s],sp [%],p [kPa]\n";
   int i;
@@ -206,7 +208,7 @@ static void test_lab_inputs_from_log__stairs_of_single_roundings__are_one_line(v
 }
 
 /* A step that is made again and again is no rounding. */
-static void test_lab_inputs_from_log__steps_that_come_again__hold(void **state)
+CASE(test_lab_inputs_from_log__steps_that_come_again__hold)
 {
   char text[4096] = "t [s],sp [%],p [kPa]\n";
   int i;
@@ -220,7 +222,7 @@ static void test_lab_inputs_from_log__steps_that_come_again__hold(void **state)
     assert_close(inputs.schedule.input[i].u_rate, 0, 0, 0);
 }
 
-static void test_lab_inputs_from_log__equal_steps_of_a_schedule__hold(void **state)
+CASE(test_lab_inputs_from_log__equal_steps_of_a_schedule__hold)
 {
   read_log("t [s],u [1]\n0,0\n10,0.1\n20,0.2\n30,0.3\n");
   drive(0);
@@ -258,7 +260,7 @@ static size_t count_lines(void)
   return n;
 }
 
-static void test_lab_inputs_from_log__stem_follows_the_row_before__holds_from_row_to_row(void **state)
+CASE(test_lab_inputs_from_log__stem_follows_the_row_before__holds_from_row_to_row)
 {
   read_walk(1, 200, 0);
   assert_int_equal(count_lines(), 0);
@@ -270,7 +272,7 @@ static void test_lab_inputs_from_log__stem_follows_the_row_before__holds_from_ro
   assert_between((double)count_lines(), 10, 30);
 }
 
-static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_command(void **state)
+CASE(test_lab_inputs_from_log__set_position__drives_where_there_is_no_command)
 {
   read_log("t [s],sp [%],x [mm]\n0,0,0\n1,0,0\n2,50,0\n3,50,1\n");
   assert_int_equal(lab_positioner_check(&rig, &seen, &error), LAB_DATA);
@@ -290,7 +292,7 @@ static void test_lab_inputs_from_log__set_position__drives_where_there_is_no_com
   assert_int_equal(inputs.schedule.input[2].set_position, 0);
 }
 
-static void test_lab_inputs_from_log__second_run__has_its_own_rows(void **state)
+CASE(test_lab_inputs_from_log__second_run__has_its_own_rows)
 {
   rig.log.new_run = LAB_RUN_T_DROPS;
   read_log("t [s],u [1]\n0,0\n1,1\n0.5,1\n2,-1\n");
@@ -300,7 +302,7 @@ static void test_lab_inputs_from_log__second_run__has_its_own_rows(void **state)
   assert_close(inputs.schedule.input[1].u, -1, 0, 0);
 }
 
-static void test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps(void **state)
+CASE(test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps)
 {
   read_log("t [s],p [kPa],x [mm]\n0,10,0\n1,,1\n3,40,1\n4,40,2\n");
   set_inputs(1, 1, 0, 0);
@@ -314,7 +316,7 @@ static void test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps
   assert_close(inputs.schedule.input[3].position_rate, 0, 0, 0);
 }
 
-static void test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps(void **state)
+CASE(test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps)
 {
   read_log("t [s],u [1],ps [kPa],force [N]\n0,0,300,5\n1,0,,5\n2,0,290,7\n");
   set_inputs(0, 0, 1, 1);
@@ -325,7 +327,7 @@ static void test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps(
   assert_close(inputs.schedule.input[1].force, 7, 0, 0);
 }
 
-static void test_lab_inputs_from_log__measured_outputs__do_not_drive(void **state)
+CASE(test_lab_inputs_from_log__measured_outputs__do_not_drive)
 {
   read_log("t [s],u [1],p [kPa],ps [kPa],force [N]\n0,0,1,300,5\n1,0,2,290,7\n");
   drive(0);
@@ -334,7 +336,7 @@ static void test_lab_inputs_from_log__measured_outputs__do_not_drive(void **stat
   assert_close(inputs.schedule.input[0].force, 0, 0, 0);
 }
 
-static void test_lab_inputs_from_log__missing_input__is_named(void **state)
+CASE(test_lab_inputs_from_log__missing_input__is_named)
 {
   read_log("t [s],p [kPa]\n0,1\n");
   assert_int_equal(lab_inputs_from_log(&model, &rig, &seen, 0, &inputs, &error), LAB_DATA);
@@ -367,7 +369,7 @@ static void assert_start(const char *text, double u, double p, double x)
   assert_close(start.x, x, x > 0 ? 1e-15 : 0, 0);
 }
 
-static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
+CASE(test_lab_run_initial_state__noise_at_rest__is_averaged)
 {
   char text[4096] = "t [s],u [1],p [kPa],x [mm]\n";
   int i;
@@ -381,7 +383,7 @@ static void test_lab_run_initial_state__noise_at_rest__is_averaged(void **state)
   assert_close(start.T, 298.15, 0, 0);
 }
 
-static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_first_rows(void **state)
+CASE(test_lab_run_initial_state__moving_from_the_first_row__takes_the_first_rows)
 {
   char text[65536] = "t [s],u [1],p [kPa],x [mm]\n";
   int i;
@@ -391,7 +393,7 @@ static void test_lab_run_initial_state__moving_from_the_first_row__takes_the_fir
 }
 
 /* A move in the first of many rows hardly shifts their mean, but it is where the run begins. */
-static void test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first_row(void **state)
+CASE(test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first_row)
 {
   char text[8192] = "t [s],u [1],p [kPa]\n0,0,20\n";
   int i;
@@ -401,7 +403,7 @@ static void test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first
 }
 
 /* Down and up again, so that both halves of the curve have one mean. */
-static void test_lab_run_initial_state__curve_with_halves_alike__is_no_level(void **state)
+CASE(test_lab_run_initial_state__curve_with_halves_alike__is_no_level)
 {
   char text[65536] = "t [s],u [1],p [kPa]\n";
   int i;
@@ -410,7 +412,7 @@ static void test_lab_run_initial_state__curve_with_halves_alike__is_no_level(voi
   assert_close(start_of(text, -1).p, (100 + 0.01 * 99.5 * 99.5) * 1e3, 1, 0);
 }
 
-static void test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position(void **state)
+CASE(test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position)
 {
   char text[4096] = "t [s],p [kPa],x [mm]\n";
   int i;
@@ -420,7 +422,7 @@ static void test_lab_run_initial_state__pressure_that_drives_and_changes__leaves
   assert_close(start_of(text, 0).x, 4e-3, 1e-15, 0);
 }
 
-static void test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills(void **state)
+CASE(test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills)
 {
   rig.params.stroke = 0;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
@@ -429,7 +431,7 @@ static void test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills
 }
 
 /* A log of the set position alone: at rest there, or fully vented or filled beyond a cut-off. */
-static void test_lab_run_initial_state__set_position_alone__is_where_the_stem_rests(void **state)
+CASE(test_lab_run_initial_state__set_position_alone__is_where_the_stem_rests)
 {
   const char *text = "t [s],sp [%]\n0,0\n1,50\n";
   fixture_need("positioner");
@@ -444,7 +446,7 @@ static void test_lab_run_initial_state__set_position_alone__is_where_the_stem_re
 
 /* Without a cut-off a positioner ends where its dead band does, and what holds the stem there is all that the chamber
  * has; with one it fills on, also where the sensor sees the stem beyond its stop. */
-static void test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_or_full(void **state)
+CASE(test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_or_full)
 {
   const char *text = "t [s],sp [%],x [mm]\n0,100,20\n1,50,20\n",
              *beyond = "t [s],sp [%],x [mm]\n0,100,20.02\n1,50,20.02\n";
@@ -462,7 +464,7 @@ static void test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_
 
 /* A sensor that swings by 2 kPa every 10 s: the log begins at its highest, a quarter of a cycle after a zero of time.
  */
-static void test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log(void **state)
+CASE(test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log)
 {
   static const pneu_term swing = {PNEU_TERM_SHOWN_PRESSURE, PNEU_TERM_OVER_CYCLE, 2, 0, 10, {0, 2000}};
   assert_int_equal(pneu_model_terms(&model, &swing, 1), PNEU_OK);
@@ -473,7 +475,7 @@ static void test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_ti
 
 /* A zero of the sensor, not a pressure: 1.6 kPa at a supply of 400 kPa; 2.4 kPa is one, and so is what fills or holds.
  */
-static void test_lab_run_initial_state__down_and_near_ambient__is_vented(void **state)
+CASE(test_lab_run_initial_state__down_and_near_ambient__is_vented)
 {
   static const char *const down = "t [s],u [1],p [kPa],x [mm]\n0,0,1.6,0.02\n1,0,1.6,0.02\n";
   assert_true(start_of(down, 0).p == 0);
@@ -483,7 +485,7 @@ static void test_lab_run_initial_state__down_and_near_ambient__is_vented(void **
   assert_close(start_of("t [s],u [1],p [kPa],x [mm]\n0,0,1.6,4\n1,0,1.6,4\n", 0).p, 1600, 1e-6, 0);
 }
 
-static void test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it(void **state)
+CASE(test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it)
 {
   start_of("t [s],u [1],p [kPa],x [mm]\n0,0,-0.03,0.0275\n", 0);
   assert_true(start.x == 0);
@@ -493,14 +495,14 @@ static void test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it(voi
   assert_start("t [s],u [1],p [kPa],x [mm]\n0,0,400,20.2\n", 0, 4e5, 0.02);
 }
 
-static void test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen(void **state)
+CASE(test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen)
 {
   assert_start("t [s],u [1],p [kPa],x [mm]\n0,0,205,10\n", 0, 205e3, 0.01);
   assert_int_equal(start.mode, PNEU_MODE_STUCK);
 }
 
 /* A sensor's error is not in the state: bias and gain as the model has them are taken out. */
-static void test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there(void **state)
+CASE(test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there)
 {
   fixture_set(&rig.params, "pressure_bias.pressure_bias", 1400);
   fixture_set(&rig.params, "position_gain.position_gain", 0.05);
@@ -510,14 +512,14 @@ static void test_lab_run_initial_state__sensors_in_error__starts_from_what_is_th
   assert_close(start.x, 10e-3, 0, 1.01 * 0.05 * 0.05 * 0.05); /* three rounds, each takes out all but the gain */
 }
 
-static void test_lab_run_initial_state__no_position__follows_from_pressure(void **state)
+CASE(test_lab_run_initial_state__no_position__follows_from_pressure)
 {
   assert_start("t [s],u [1],p [kPa]\n0,0,200\n", 0, 200e3, 0.01);
   assert_start("t [s],u [1],p [kPa]\n0,0,20\n", 0, 20e3, 0);
   assert_start("t [s],u [1],p [kPa]\n0,0,390\n", 0, 390e3, 0.02);
 }
 
-static void test_lab_run_initial_state__no_pressure__follows_from_position(void **state)
+CASE(test_lab_run_initial_state__no_pressure__follows_from_position)
 {
   assert_start("t [s],u [1],x [mm]\n0,0,10\n", 0, 200e3, 0.01);
   assert_start("t [s],u [1],x [mm]\n0,0,0.02\n", 0, 0, 0);
@@ -525,32 +527,32 @@ static void test_lab_run_initial_state__no_pressure__follows_from_position(void 
 }
 
 /* 400 N more against the air take 10 kPa more, or let the stem down by 1 mm. */
-static void test_lab_run_initial_state__force_on_the_stem__counts_against_the_air(void **state)
+CASE(test_lab_run_initial_state__force_on_the_stem__counts_against_the_air)
 {
   load = 400;
   assert_start("t [s],u [1],x [mm]\n0,0,10\n", 0, 210e3, 0.01);
   assert_start("t [s],u [1],p [kPa]\n0,0,200\n", 0, 200e3, 9e-3);
 }
 
-static void test_lab_run_initial_state__nothing_measured__is_empty_and_down(void **state)
+CASE(test_lab_run_initial_state__nothing_measured__is_empty_and_down)
 {
   assert_start("t [s],u [1]\n0,0\n", 0, 0, 0);
 }
 
-static void test_lab_run_initial_state__vessel__has_no_position(void **state)
+CASE(test_lab_run_initial_state__vessel__has_no_position)
 {
   rig.params.stroke = 0;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
   assert_start("t [s],u [1],p [kPa]\n0,-1,700\n", -1, 700e3, 0);
 }
 
-static void test_lab_run_initial_state__driven_channels__start_at_their_first_value(void **state)
+CASE(test_lab_run_initial_state__driven_channels__start_at_their_first_value)
 {
   set_inputs(1, 1, 0, 0);
   assert_start("t [s],p [kPa],x [mm]\n0,,0.5\n1,12,1\n2,13,1\n", 0, 12e3, 0.5e-3);
 }
 
-static void test_lab_run_initial_state__below_vacuum__is_refused(void **state)
+CASE(test_lab_run_initial_state__below_vacuum__is_refused)
 {
   pneu_input input;
   read_log("t [s],u [1],p [kPa]\n0,0,-150\n");
@@ -562,7 +564,7 @@ static void test_lab_run_initial_state__below_vacuum__is_refused(void **state)
 
 /* ---- The standard experiment ---- */
 
-static void test_lab_standard_experiment__default_model__fills_and_vents(void **state)
+CASE(test_lab_standard_experiment__default_model__fills_and_vents)
 {
   const lab_response_options options = {.tol = 1e-6};
   lab_response response;
@@ -581,12 +583,10 @@ static void test_lab_standard_experiment__default_model__fills_and_vents(void **
   lab_response_free(&response);
 }
 
-#define CASE(name) cmocka_unit_test_setup_teardown(name, fresh_rig, forget)
-
 /* ---- Runs ---- */
 
 /* The noise of values without any is that of their rounding, whatever its own rounding. */
-static void test_lab_run_open__values_in_steps_without_noise__have_weights(void **state)
+CASE(test_lab_run_open__values_in_steps_without_noise__have_weights)
 {
   static char text[20000];
   int k, i;
@@ -606,7 +606,7 @@ static void test_lab_run_open__values_in_steps_without_noise__have_weights(void 
 }
 
 /* Rounding to steps of q adds q^2/12 to a declared variance. */
-static void test_lab_run_open__declared_resolution__is_that_of_the_run(void **state)
+CASE(test_lab_run_open__declared_resolution__is_that_of_the_run)
 {
   const double q = 500, noise = 100; /* [Pa] */
   lab_run run;
@@ -621,48 +621,5 @@ static void test_lab_run_open__declared_resolution__is_that_of_the_run(void **st
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      CASE(test_lab_inputs_from_log__bend__is_an_entry_of_its_own),
-      CASE(test_lab_inputs_from_log__equal_commands__are_one_entry),
-      CASE(test_lab_inputs_from_log__ramp__runs_along_lines),
-      CASE(test_lab_inputs_from_log__ramp_that_begins_between_rows__has_its_corners_there),
-      CASE(test_lab_inputs_from_log__short_ramp__is_no_jump),
-      CASE(test_lab_inputs_from_log__ramp_over_a_gap__goes_by_its_pace),
-      CASE(test_lab_run_open__command_that_jumps_and_runs_at_once__jumps_between_two_rows),
-      CASE(test_lab_inputs_from_log__rounded_ramp__is_one_line),
-      CASE(test_lab_inputs_from_log__stairs_of_single_roundings__are_one_line),
-      CASE(test_lab_inputs_from_log__steps_that_come_again__hold),
-      CASE(test_lab_inputs_from_log__equal_steps_of_a_schedule__hold),
-      CASE(test_lab_inputs_from_log__stem_follows_the_row_before__holds_from_row_to_row),
-      CASE(test_lab_inputs_from_log__set_position__drives_where_there_is_no_command),
-      CASE(test_lab_inputs_from_log__second_run__has_its_own_rows),
-      CASE(test_lab_inputs_from_log__measured_inputs__run_along_lines_over_gaps),
-      CASE(test_lab_inputs_from_log__measured_supply_and_force__hold_over_gaps),
-      CASE(test_lab_inputs_from_log__measured_outputs__do_not_drive),
-      CASE(test_lab_inputs_from_log__missing_input__is_named),
-      CASE(test_lab_run_initial_state__noise_at_rest__is_averaged),
-      CASE(test_lab_run_initial_state__moving_from_the_first_row__takes_the_first_rows),
-      CASE(test_lab_run_initial_state__moves_at_once_and_rests__takes_the_first_row),
-      CASE(test_lab_run_initial_state__curve_with_halves_alike__is_no_level),
-      CASE(test_lab_run_initial_state__pressure_that_drives_and_changes__leaves_the_first_position),
-      CASE(test_lab_run_initial_state__vessel_seen_late__is_full_while_it_fills),
-      CASE(test_lab_run_initial_state__set_position_alone__is_where_the_stem_rests),
-      CASE(test_lab_run_initial_state__set_position_at_the_upper_stop__is_held_or_full),
-      CASE(test_lab_run_initial_state__sensor_in_cycles__is_corrected_by_the_time_of_the_log),
-      CASE(test_lab_run_initial_state__down_and_near_ambient__is_vented),
-      CASE(test_lab_run_initial_state__near_a_stop_and_pushed__stands_on_it),
-      CASE(test_lab_run_initial_state__held_by_friction__stays_where_it_is_seen),
-      CASE(test_lab_run_initial_state__sensors_in_error__starts_from_what_is_there),
-      CASE(test_lab_run_initial_state__no_position__follows_from_pressure),
-      CASE(test_lab_run_initial_state__no_pressure__follows_from_position),
-      CASE(test_lab_run_initial_state__force_on_the_stem__counts_against_the_air),
-      CASE(test_lab_run_initial_state__nothing_measured__is_empty_and_down),
-      CASE(test_lab_run_initial_state__vessel__has_no_position),
-      CASE(test_lab_run_initial_state__driven_channels__start_at_their_first_value),
-      CASE(test_lab_run_initial_state__below_vacuum__is_refused),
-      CASE(test_lab_standard_experiment__default_model__fills_and_vents),
-      CASE(test_lab_run_open__values_in_steps_without_noise__have_weights),
-      CASE(test_lab_run_open__declared_resolution__is_that_of_the_run),
-  };
-  return cmocka_run_group_tests_name("schedule", tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

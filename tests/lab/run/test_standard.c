@@ -98,7 +98,7 @@ static gap against_cvode(const experiment *e, double tol)
 }
 
 /* What pneu.h says of pneu_run. */
-static void test_lab_response_run__standard_experiment__stepper_agrees_with_cvode_as_documented(void **state)
+TEST(test_lab_response_run__standard_experiment__stepper_agrees_with_cvode_as_documented)
 {
   static const struct {
     double tol, x, p;
@@ -115,7 +115,7 @@ static void test_lab_response_run__standard_experiment__stepper_agrees_with_cvod
     }
 }
 
-static void test_lab_response_run__standard_experiment__is_the_run_of_the_library(void **state)
+TEST(test_lab_response_run__standard_experiment__is_the_run_of_the_library)
 {
   const experiment e = nth(6);
   lab_response response;
@@ -153,7 +153,7 @@ static void run_theirs(const experiment *e)
 /* They differ by the step of the second and by the shape of the blend at equal pressures: it is linear there, ours an
  * odd polynomial; either moves the last 0.05 % of pressure, none of the stroke. Measured in double: 1.8e-8 of stroke,
  * 6.6e-5 of supply pressure; three times that is allowed. */
-static void test_fixture_trace__standard_experiment__agrees_with_the_second_implementation(void **state)
+TEST(test_fixture_trace__standard_experiment__agrees_with_the_second_implementation)
 {
   int i, k;
   for (i = 0; i < CASES; i++) {
@@ -173,12 +173,5 @@ static void test_fixture_trace__standard_experiment__agrees_with_the_second_impl
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-#ifndef PNEU_SINGLE
-      cmocka_unit_test(test_lab_response_run__standard_experiment__stepper_agrees_with_cvode_as_documented),
-      cmocka_unit_test(test_lab_response_run__standard_experiment__is_the_run_of_the_library),
-#endif
-      cmocka_unit_test(test_fixture_trace__standard_experiment__agrees_with_the_second_implementation),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -130,7 +130,7 @@ static drive with(int gas, const char *name, double value)
 }
 
 /* Across the stops, from which the stem breaks away and on which it lands, in every law of the gas. */
-static void test_lab_variations__parameters__are_those_of_exact_runs(void **state)
+TEST(test_lab_variations__parameters__are_those_of_exact_runs)
 {
   static const param_step of[] = {{"spring_rate", 1e5, 1}, {"dry_friction", 480, 1e-2}, {"area", 0.04, 4e-7},
                                   {"stroke", 0.02, 2e-7},  {"damping", 1000, 1e-1},     {"supply_pressure", 4e5, 1}};
@@ -141,7 +141,7 @@ static void test_lab_variations__parameters__are_those_of_exact_runs(void **stat
 }
 
 /* A command that comes later, a start that is warmer, another command. */
-static void test_lab_variations__commands_and_start__are_those_of_exact_runs(void **state)
+TEST(test_lab_variations__commands_and_start__are_those_of_exact_runs)
 {
   const double step = 1e-6;
   const drive here = with(PNEU_GAS_ENERGY, NULL, 0);
@@ -160,7 +160,7 @@ static void test_lab_variations__commands_and_start__are_those_of_exact_runs(voi
 }
 
 /* A vessel at rest, its run one long step: what differs goes its own way. */
-static void test_lab_variations__run_at_rest__follows_what_differs(void **state)
+TEST(test_lab_variations__run_at_rest__follows_what_differs)
 {
   pneu_params p = fixture_vessel(1e-3);
   drive here = {.rows = 1}, up, down;
@@ -185,7 +185,7 @@ static drive positioned(int gas, const char *name, double value)
 }
 
 /* Across the edge of the dead band, where the opening jumps. */
-static void test_lab_variations__edge_of_a_dead_band__is_that_of_exact_runs(void **state)
+TEST(test_lab_variations__edge_of_a_dead_band__is_that_of_exact_runs)
 {
   static const param_step of[] = {
       {"spring_rate", 4e5, 1}, {"positioner.dead_band", 5e-3, 1e-8}, {"fill_area", 0.893e-6, 1e-12}};
@@ -195,7 +195,7 @@ static void test_lab_variations__edge_of_a_dead_band__is_that_of_exact_runs(void
 }
 
 /* What has states of its own, and what sensors show. */
-static void test_lab_variations__effects__are_those_of_exact_runs(void **state)
+TEST(test_lab_variations__effects__are_those_of_exact_runs)
 {
   static const param_step of[] = {{"transducer_time", 0.05, 1e-6},
                                   {"pressure_gain", 0.01, 1e-5},
@@ -215,7 +215,7 @@ static void check_not_followed(const drive *here, const drive *there)
 }
 
 /* What has other states, other rows, or shows the position at another time: who asks has to take a difference. */
-static void test_lab_variations__another_kind_of_run__is_not_followed(void **state)
+TEST(test_lab_variations__another_kind_of_run__is_not_followed)
 {
   const drive here = with(PNEU_GAS_ENERGY, NULL, 0), lagging = with(PNEU_GAS_ENERGY, "transducer_time", 0.05),
               yields = with(PNEU_GAS_ENERGY, "stop_compliance", 1e-11),
@@ -230,7 +230,7 @@ static void test_lab_variations__another_kind_of_run__is_not_followed(void **sta
 }
 
 /* A stem that sticks and slips more than ten times under one command has no slopes that mean anything. */
-static void test_lab_variations__stick_slip__is_not_followed(void **state)
+TEST(test_lab_variations__stick_slip__is_not_followed)
 {
   drive here = with(PNEU_GAS_ISOTHERMAL, NULL, 0), there;
   pneu_params p = here.model.p;
@@ -245,14 +245,5 @@ static void test_lab_variations__stick_slip__is_not_followed(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_variations__parameters__are_those_of_exact_runs),
-      cmocka_unit_test(test_lab_variations__commands_and_start__are_those_of_exact_runs),
-      cmocka_unit_test(test_lab_variations__run_at_rest__follows_what_differs),
-      cmocka_unit_test(test_lab_variations__edge_of_a_dead_band__is_that_of_exact_runs),
-      cmocka_unit_test(test_lab_variations__effects__are_those_of_exact_runs),
-      cmocka_unit_test(test_lab_variations__stick_slip__is_not_followed),
-      cmocka_unit_test(test_lab_variations__another_kind_of_run__is_not_followed),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

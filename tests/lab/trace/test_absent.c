@@ -41,7 +41,7 @@ static void close_log(void)
 }
 
 /* It rests at 0, costs nothing of BIC, and its interval says how large it may be. */
-static void test_lab_absent_find__leak_that_is_not_there__rests(void **state)
+TEST(test_lab_absent_find__leak_that_is_not_there__rests)
 {
   const double largest = 1e-3; /* of the vent orifice */
   double bic;
@@ -61,7 +61,7 @@ static void test_lab_absent_find__leak_that_is_not_there__rests(void **state)
   close_log();
 }
 
-static void test_lab_absent_find__leak_that_is_there__stays(void **state)
+TEST(test_lab_absent_find__leak_that_is_there__stays)
 {
   int any;
   open_log(0.01);
@@ -73,9 +73,5 @@ static void test_lab_absent_find__leak_that_is_there__stays(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_absent_find__leak_that_is_not_there__rests),
-      cmocka_unit_test(test_lab_absent_find__leak_that_is_there__stays),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -44,7 +44,7 @@ static void find(const second_rig *first, const second_rig *second, int n)
   close_logs(n);
 }
 
-static void test_lab_apart_find__preload_set_anew__is_of_each_log(void **state)
+TEST(test_lab_apart_find__preload_set_anew__is_of_each_log)
 {
   second_rig first = virtual_rig(3), second = virtual_rig(4);
   double value[LOGS];
@@ -63,7 +63,7 @@ static void test_lab_apart_find__preload_set_anew__is_of_each_log(void **state)
 }
 
 /* Friction belongs to the rig: that it grows is a finding, and no value of a log. */
-static void test_lab_apart_find__friction_that_has_grown__is_of_the_rig(void **state)
+TEST(test_lab_apart_find__friction_that_has_grown__is_of_the_rig)
 {
   second_rig first = virtual_rig(3), second = virtual_rig(4);
   second.dry_friction = 2 * first.dry_friction;
@@ -71,7 +71,7 @@ static void test_lab_apart_find__friction_that_has_grown__is_of_the_rig(void **s
   assert_int_equal(apart.n, 0);
 }
 
-static void test_lab_apart_find__logs_of_one_rig__have_nothing_of_their_own(void **state)
+TEST(test_lab_apart_find__logs_of_one_rig__have_nothing_of_their_own)
 {
   second_rig first = virtual_rig(3), second = virtual_rig(4);
   find(&first, &second, LOGS);
@@ -81,7 +81,7 @@ static void test_lab_apart_find__logs_of_one_rig__have_nothing_of_their_own(void
 }
 
 /* What one preload for both leaves is more than noise; a preload for each explains it, and that is the answer. */
-static void test_lab_apart_search__preload_set_anew__is_the_answer(void **state)
+TEST(test_lab_apart_search__preload_set_anew__is_the_answer)
 {
   static lab_unknowns completed;
   static lab_search_result result;
@@ -113,11 +113,5 @@ static void test_lab_apart_search__preload_set_anew__is_the_answer(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_apart_find__preload_set_anew__is_of_each_log),
-      cmocka_unit_test(test_lab_apart_find__friction_that_has_grown__is_of_the_rig),
-      cmocka_unit_test(test_lab_apart_find__logs_of_one_rig__have_nothing_of_their_own),
-      cmocka_unit_test(test_lab_apart_search__preload_set_anew__is_the_answer),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

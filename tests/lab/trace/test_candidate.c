@@ -13,7 +13,7 @@ static int count_let_go(void)
   return n;
 }
 
-static void test_lab_candidate_let_go__one_value_far_off__is_found_without_its_prior(void **state)
+TEST(test_lab_candidate_let_go__one_value_far_off__is_found_without_its_prior)
 {
   second_rig truth = virtual_rig(11);
   const double true_supply = truth.supply *= 0.9; /* five tolerances */
@@ -34,7 +34,7 @@ static void test_lab_candidate_let_go__one_value_far_off__is_found_without_its_p
   held_close(&h);
 }
 
-static void test_lab_candidate_let_go__as_declared__keeps_all(void **state)
+TEST(test_lab_candidate_let_go__as_declared__keeps_all)
 {
   const second_rig truth = virtual_rig(11);
   lab_error error = {0, ""};
@@ -45,7 +45,7 @@ static void test_lab_candidate_let_go__as_declared__keeps_all(void **state)
 }
 
 /* An instrument that is taken out of what was found is as well known as before. */
-static void test_lab_candidate_drop__gain_of_a_sensor__is_held_again(void **state)
+TEST(test_lab_candidate_drop__gain_of_a_sensor__is_held_again)
 {
   second_rig truth = virtual_rig(13);
   const lab_unknown *x;
@@ -65,10 +65,5 @@ static void test_lab_candidate_drop__gain_of_a_sensor__is_held_again(void **stat
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_candidate_let_go__one_value_far_off__is_found_without_its_prior),
-      cmocka_unit_test(test_lab_candidate_let_go__as_declared__keeps_all),
-      cmocka_unit_test(test_lab_candidate_drop__gain_of_a_sensor__is_held_again),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

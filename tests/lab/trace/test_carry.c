@@ -60,18 +60,18 @@ static int is_pruned(const int leaks[LOGS], int n)
   return any;
 }
 
-static void test_lab_carry_prune__leak_of_all_logs__stays(void **state)
+TEST(test_lab_carry_prune__leak_of_all_logs__stays)
 {
   assert_false(is_pruned((const int[LOGS]){1, 1, 1}, LOGS));
 }
 
-static void test_lab_carry_prune__leak_of_one_log__is_taken_out(void **state)
+TEST(test_lab_carry_prune__leak_of_one_log__is_taken_out)
 {
   assert_true(is_pruned((const int[LOGS]){0, 1, 0}, LOGS));
 }
 
 /* Of two logs one is all that is left to fit. */
-static void test_lab_carry_prune__two_logs__are_not_asked(void **state)
+TEST(test_lab_carry_prune__two_logs__are_not_asked)
 {
   assert_false(is_pruned((const int[LOGS]){0, 1}, 2));
 }
@@ -87,7 +87,7 @@ static double carried(void)
 }
 
 /* A run left out has no part in the fit: what it errs by is what a fit to the others alone predicts of it. */
-static void test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do(void **state)
+TEST(test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do)
 {
   double sum, of_two;
   open_logs((const int[LOGS]){1, 1, 1}, LOGS);
@@ -102,7 +102,7 @@ static void test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do(v
 
 /* One standard error: of differences 1, 1, 1 none; of 3, 0, 0 as much as their mean; what cannot be followed is worse.
  */
-static void test_lab_carry_is_better__differences_of_runs__are_held_against_their_scatter(void **state)
+TEST(test_lab_carry_is_better__differences_of_runs__are_held_against_their_scatter)
 {
   static const double present[] = {10, 20, 30};
   assert_true(lab_carry_is_better((const double[]){9, 19, 29}, present, 3));
@@ -115,7 +115,7 @@ static void test_lab_carry_is_better__differences_of_runs__are_held_against_thei
 
 /* Where more than noise is left, a lower BIC is no reason: that of a laminar leak is lower, by 73, and it carries over
  * worse, by 9 %. */
-static void test_lab_rivals_try__three_logs__keeps_what_carries_over(void **state)
+TEST(test_lab_rivals_try__three_logs__keeps_what_carries_over)
 {
   int changed;
   open_logs((const int[LOGS]){0, 1, 1}, LOGS);
@@ -127,13 +127,5 @@ static void test_lab_rivals_try__three_logs__keeps_what_carries_over(void **stat
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_carry_prune__leak_of_all_logs__stays),
-      cmocka_unit_test(test_lab_carry_prune__leak_of_one_log__is_taken_out),
-      cmocka_unit_test(test_lab_carry_prune__two_logs__are_not_asked),
-      cmocka_unit_test(test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do),
-      cmocka_unit_test(test_lab_carry_is_better__differences_of_runs__are_held_against_their_scatter),
-      cmocka_unit_test(test_lab_rivals_try__three_logs__keeps_what_carries_over),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

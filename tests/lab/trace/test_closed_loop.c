@@ -68,6 +68,8 @@ static int begin(void **state)
   return 0;
 }
 
+#define CASE(name) TEST_WITH(name, begin, NULL)
+
 static double set_at(double t)
 {
   size_t i = 0;
@@ -156,7 +158,7 @@ static void assert_found(const char *effect, const char *param, double value, do
 
 /* ---- Set position and travel ---- */
 
-static void test_lab_search_run__set_position_and_travel__nothing_is_missing(void **state)
+CASE(test_lab_search_run__set_position_and_travel__nothing_is_missing)
 {
   const int area = 0; /* the first of `fit` */
   int friction;
@@ -171,7 +173,7 @@ static void test_lab_search_run__set_position_and_travel__nothing_is_missing(voi
   assert_close(result.fit.high[friction] - result.fit.low[friction], 64, 0, 0.2);
 }
 
-static void test_lab_search_run__set_position_in_many_small_steps__is_no_hum(void **state)
+CASE(test_lab_search_run__set_position_in_many_small_steps__is_no_hum)
 {
   set_waves();
   close_loop(WITH_SP);
@@ -179,7 +181,7 @@ static void test_lab_search_run__set_position_in_many_small_steps__is_no_hum(voi
   assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
 }
 
-static void test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized(void **state)
+CASE(test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized)
 {
   g.span = 0.03;
   close_loop(WITH_SP | WITH_P);
@@ -190,7 +192,7 @@ static void test_lab_search_run__positioner_out_of_adjustment__is_named_and_size
   assert_found("positioner_overlap", "positioner_overlap.overlap", 0.05, 5e-2);
 }
 
-static void test_lab_search_run__another_gain__is_a_value_that_is_off(void **state)
+CASE(test_lab_search_run__another_gain__is_a_value_that_is_off)
 {
   k.gain = 14;
   close_loop(WITH_SP | WITH_P);
@@ -200,7 +202,7 @@ static void test_lab_search_run__another_gain__is_a_value_that_is_off(void **sta
 
 /* One factor of both orifices is fitted: the vent is off beside the other by what orifices of one make are, or is
  * blocked. */
-static void test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_its_tolerance(void **state)
+CASE(test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_its_tolerance)
 {
   g.vent_area = 0.95 * g.fill_area;
   close_loop(WITH_SP | WITH_P);
@@ -214,7 +216,7 @@ static void test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_i
 
 /* A partial stroke test tells friction of three times its sheet from a spring that gives back less: that would have to
  * do so within a micron. */
-static void test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis(void **state)
+CASE(test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis)
 {
   static const double level[] = {1, 0.9, 1, 0.85, 1};
   for (n_set = 0; n_set < sizeof level / sizeof *level; n_set++) {
@@ -229,7 +231,7 @@ static void test_lab_search_run__partial_stroke_and_more_friction__is_no_hystere
   assert_close((double)u.rig.params.dry_friction, 990, 0, 0.05);
 }
 
-static void test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop(void **state)
+CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop)
 {
   g.supply_droop = 1e8;
   close_loop(WITH_SP);
@@ -237,7 +239,7 @@ static void test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop
 }
 
 /* Before the stem meets a stop nothing shows of it: no slope at its full stroke tells one at 70 %. */
-static void test_lab_search_run__stop_that_comes_early__is_named_and_sized(void **state)
+CASE(test_lab_search_run__stop_that_comes_early__is_named_and_sized)
 {
   g.travel_limit = 0.7 * g.stroke;
   set[7] = 0.9;
@@ -263,7 +265,7 @@ static void assert_line_found(const char *effect, const char *resistance, double
 }
 
 /* What resists as an orifice does is found by its form, beside which a linear one leaves more than noise. */
-static void test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized(void **state)
+CASE(test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized)
 {
   g.tube_resistance = 1e8;
   g.tube_turbulence = 1;
@@ -276,7 +278,7 @@ static void test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_si
   assert_line_found("supply_droop", "supply_resistance", 2e8, "supply_volume", 3e-4);
 }
 
-static void test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized(void **state)
+CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized)
 {
   set_waves();
   g.leak_area = 3e-8;
@@ -308,7 +310,7 @@ static double shown(const char *param, double size, double *scatter)
 
 /* The declared chamber is a third larger than the true one, of which the swept part is known; where the stem goes all
  * the way the pressures are so far apart that a hole and a gap differ. */
-static void test_lab_standing_leak__pressure_falls_with_both_orifices_shut__is_about_the_size(void **state)
+CASE(test_lab_standing_leak__pressure_falls_with_both_orifices_shut__is_about_the_size)
 {
   double alike, other;
   hold_within_a_wider_band();
@@ -322,7 +324,7 @@ static void test_lab_standing_leak__pressure_falls_with_both_orifices_shut__is_a
   assert_true(alike < other);
 }
 
-static void test_lab_standing_leak__no_leak_or_before_its_time__shows_none(void **state)
+CASE(test_lab_standing_leak__no_leak_or_before_its_time__shows_none)
 {
   double scatter;
   hold_within_a_wider_band();
@@ -338,7 +340,7 @@ static void test_lab_standing_leak__no_leak_or_before_its_time__shows_none(void 
   lab_logs_close(&logs);
 }
 
-static void test_lab_standing_leak__leak_that_the_model_has__is_not_counted_again(void **state)
+CASE(test_lab_standing_leak__leak_that_the_model_has__is_not_counted_again)
 {
   const int gap = pneu_param_find("laminar_leak.laminar_leak");
   double scatter, seen;
@@ -352,7 +354,7 @@ static void test_lab_standing_leak__leak_that_the_model_has__is_not_counted_agai
   lab_logs_close(&logs);
 }
 
-static void test_lab_forces_begin__valve_that_leaks__spring_and_friction_as_the_pressure_moves_it(void **state)
+CASE(test_lab_forces_begin__valve_that_leaks__spring_and_friction_as_the_pressure_moves_it)
 {
   lab_error error = {0, ""};
   hold_within_a_wider_band();
@@ -370,7 +372,7 @@ static void test_lab_forces_begin__valve_that_leaks__spring_and_friction_as_the_
   lab_logs_close(&logs);
 }
 
-static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it(void **state)
+CASE(test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it)
 {
   hold_within_a_wider_band();
   g.leak_area = 6e-8;
@@ -379,7 +381,7 @@ static void test_lab_search_run__leak_at_rest__is_named_though_the_positioner_ma
   assert_true(result.found[0].statistic > 1e4 && result.scores.n > 0);
 }
 
-static void test_lab_search_run__leak_through_a_gap_at_rest__is_told_from_one_through_a_hole(void **state)
+CASE(test_lab_search_run__leak_through_a_gap_at_rest__is_told_from_one_through_a_hole)
 {
   hold_within_a_wider_band();
   g.laminar_leak = 4.4e-16;
@@ -387,7 +389,7 @@ static void test_lab_search_run__leak_through_a_gap_at_rest__is_told_from_one_th
   assert_found("laminar_leak", "laminar_leak.laminar_leak", 4.4e-16, 0.1);
 }
 
-static void test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant(void **state)
+CASE(test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant)
 {
   hold_within_a_wider_band();
   leak_since = 6e-8;
@@ -402,7 +404,7 @@ static void test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_ins
 }
 
 /* Friction that rises shows at the next move; that the loop does not follow the commands on the way is no departure. */
-static void test_lab_departure_find__friction_that_rises__is_between_the_rows(void **state)
+CASE(test_lab_departure_find__friction_that_rises__is_between_the_rows)
 {
   static lab_candidate c;
   lab_error error = {0, ""};
@@ -434,7 +436,7 @@ static int jerks(void)
   return window > 0;
 }
 
-static void test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__moves_the_stem_by_jerks(void **state)
+CASE(test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__moves_the_stem_by_jerks)
 {
   set_waves();
   assert_int_equal(jerks(), 0);
@@ -445,7 +447,7 @@ static void test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__
 
 /* ---- Output of the positioner at every row ---- */
 
-static void test_lab_search_run__opening_at_every_row__nothing_is_missing(void **state)
+CASE(test_lab_search_run__opening_at_every_row__nothing_is_missing)
 {
   k.cycle = spacing;
   close_loop(WITH_U | WITH_SP | WITH_P);
@@ -454,7 +456,7 @@ static void test_lab_search_run__opening_at_every_row__nothing_is_missing(void *
 }
 
 /* Between two rows the positioner has moved on: what matters is where it jumps, with the set position. */
-static void test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing(void **state)
+CASE(test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing)
 {
   k.cycle = 0.001;
   close_loop(WITH_U | WITH_P);
@@ -462,32 +464,7 @@ static void test_lab_search_run__opening_that_changes_between_rows__nothing_is_m
   assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
 }
 
-#define CASE(name) cmocka_unit_test_setup(name, begin)
-
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      CASE(test_lab_search_run__set_position_and_travel__nothing_is_missing),
-      CASE(test_lab_search_run__set_position_in_many_small_steps__is_no_hum),
-      CASE(test_lab_search_run__positioner_out_of_adjustment__is_named_and_sized),
-      CASE(test_lab_search_run__another_gain__is_a_value_that_is_off),
-      CASE(test_lab_search_run__vent_off_beside_the_fill__is_an_effect_beyond_its_tolerance),
-      CASE(test_lab_search_run__partial_stroke_and_more_friction__is_no_hysteresis),
-      CASE(test_lab_search_run__supply_that_gives_way__is_seen_through_the_loop),
-      CASE(test_lab_search_run__stop_that_comes_early__is_named_and_sized),
-      CASE(test_lab_search_run__kinked_tube_and_narrow_supply__are_named_and_sized),
-      CASE(test_lab_search_run__leak_while_the_set_position_changes__is_named_and_sized),
-      CASE(test_lab_standing_leak__pressure_falls_with_both_orifices_shut__is_about_the_size),
-      CASE(test_lab_standing_leak__no_leak_or_before_its_time__shows_none),
-      CASE(test_lab_standing_leak__leak_that_the_model_has__is_not_counted_again),
-      CASE(test_lab_forces_begin__valve_that_leaks__spring_and_friction_as_the_pressure_moves_it),
-      CASE(test_lab_search_run__leak_at_rest__is_named_though_the_positioner_makes_up_for_it),
-      CASE(test_lab_search_run__leak_through_a_gap_at_rest__is_told_from_one_through_a_hole),
-      CASE(test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant),
-      CASE(test_lab_departure_find__friction_that_rises__is_between_the_rows),
-      CASE(test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__moves_the_stem_by_jerks),
-      CASE(test_lab_search_run__opening_at_every_row__nothing_is_missing),
-      CASE(test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

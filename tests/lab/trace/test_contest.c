@@ -18,7 +18,7 @@ static void name(const char *param)
   tolerant.best.quality.strain = lab_constant(LAB_STRAINED) + 1;
 }
 
-static void test_lab_contest_is_better__value_far_off__is_told_only_by_odds(void **state)
+TEST(test_lab_contest_is_better__value_far_off__is_told_only_by_odds)
 {
   const double odds = lab_constant(LAB_ALIKE_BIC);
   name("chamber_leak.leak_area");
@@ -28,7 +28,7 @@ static void test_lab_contest_is_better__value_far_off__is_told_only_by_odds(void
   assert_false(lab_contest_is_better(&exact, &tolerant));
 }
 
-static void test_lab_contest_is_better__gain_of_a_sensor__is_no_less_far_off(void **state)
+TEST(test_lab_contest_is_better__gain_of_a_sensor__is_no_less_far_off)
 {
   const double odds = lab_constant(LAB_ALIKE_BIC);
   name("pressure_gain.pressure_gain");
@@ -40,9 +40,5 @@ static void test_lab_contest_is_better__gain_of_a_sensor__is_no_less_far_off(voi
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_contest_is_better__value_far_off__is_told_only_by_odds),
-      cmocka_unit_test(test_lab_contest_is_better__gain_of_a_sensor__is_no_less_far_off),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -47,7 +47,7 @@ static int holds(enum lab_phase phase, int action, const lab_facts *f)
   return any;
 }
 
-static void test_lab_is_noise__chi_square_near_its_expectation__is_noise(void **state)
+TEST(test_lab_is_noise__chi_square_near_its_expectation__is_noise)
 {
   lab_quality q = quality(200 + 6 * 20 - 1, 0), many = {1, 1.1024e6, 1e6, 0, 0, 0, 0};
   assert_true(lab_is_noise(&q));
@@ -62,14 +62,14 @@ static void test_lab_is_noise__chi_square_near_its_expectation__is_noise(void **
   assert_false(lab_is_noise(&many));
 }
 
-static void test_lab_is_clean__one_standard_deviation__is_the_limit(void **state)
+TEST(test_lab_is_clean__one_standard_deviation__is_the_limit)
 {
   const lab_quality in = quality(219, 0), out = quality(221, 0);
   assert_true(lab_is_clean(&in));
   assert_false(lab_is_clean(&out));
 }
 
-static void test_lab_is_poor__half_of_the_excess__is_the_limit(void **state)
+TEST(test_lab_is_poor__half_of_the_excess__is_the_limit)
 {
   const lab_quality declared = quality(1200, 0), much = quality(699, 0), little = quality(701, 0);
   lab_quality failed = much;
@@ -79,7 +79,7 @@ static void test_lab_is_poor__half_of_the_excess__is_the_limit(void **state)
   assert_true(lab_is_poor(&declared, &failed));
 }
 
-static void test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it(void **state)
+TEST(test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it)
 {
   lab_facts f = declared_alone();
   f.effect = 333;
@@ -100,7 +100,7 @@ static void test_rules__first_scores__call_for_free_terms_where_no_effect_explai
 }
 
 /* It leaves 149 of an excess of 1500, and then 151. */
-static void test_rules__free_term_that_comes_near__is_asked_with_tolerances_at_once(void **state)
+TEST(test_rules__free_term_that_comes_near__is_asked_with_tolerances_at_once)
 {
   lab_facts f = declared_alone();
   f.within = quality(1100, 1100);
@@ -117,7 +117,7 @@ static void test_rules__free_term_that_comes_near__is_asked_with_tolerances_at_o
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_UNFOLD_TERM, &f));
 }
 
-static void test_rules__values_as_declared__end_where_tolerances_alone_are_better(void **state)
+TEST(test_rules__values_as_declared__end_where_tolerances_alone_are_better)
 {
   lab_facts f = declared_alone();
   assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
@@ -133,7 +133,7 @@ static void test_rules__values_as_declared__end_where_tolerances_alone_are_bette
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_SCORE_TERMS, &f));
 }
 
-static void test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces(void **state)
+TEST(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces)
 {
   lab_facts f = declared_alone();
   f.begins = 121;
@@ -160,7 +160,7 @@ static void test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
 }
 
-static void test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left(void **state)
+TEST(test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left)
 {
   lab_facts f = declared_alone();
   f.within = quality(1100, 1201);
@@ -170,7 +170,7 @@ static void test_rules__what_begins_beside_values_as_declared__ends_where_more_t
   assert_false(holds(LAB_PHASE_ROUND, LAB_DO_END, &f));
 }
 
-static void test_rules__values_as_declared__end_where_tolerances_beat_every_leader(void **state)
+TEST(test_rules__values_as_declared__end_where_tolerances_beat_every_leader)
 {
   lab_facts f = declared_alone();
   f.extended = quality(600, 700);
@@ -188,7 +188,7 @@ static void test_rules__values_as_declared__end_where_tolerances_beat_every_lead
   assert_false(holds(LAB_PHASE_LED, LAB_DO_END, &f)); /* no leader was fitted */
 }
 
-static void test_rules__values_within_tolerances__effects_come_before_onsets(void **state)
+TEST(test_rules__values_within_tolerances__effects_come_before_onsets)
 {
   lab_facts f = declared_alone();
   f.can_begin = 1;
@@ -200,7 +200,7 @@ static void test_rules__values_within_tolerances__effects_come_before_onsets(voi
   assert_true(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
 }
 
-static void test_rules__extension__is_added_by_bic(void **state)
+TEST(test_rules__extension__is_added_by_bic)
 {
   lab_facts f = declared_alone();
   f.extended = quality(1100, 1190.7); /* 2 ln 100 = 9.21 below 1200 */
@@ -212,7 +212,7 @@ static void test_rules__extension__is_added_by_bic(void **state)
   assert_false(holds(LAB_PHASE_REFITTED, LAB_DO_ADD_EFFECT, &f));
 }
 
-static void test_rules__after_a_round__earlier_effects_are_tried_again(void **state)
+TEST(test_rules__after_a_round__earlier_effects_are_tried_again)
 {
   lab_facts f = two_effects();
   assert_true(holds(LAB_PHASE_ROUND, LAB_DO_REMOVE_NEEDLESS, &f));
@@ -229,7 +229,7 @@ static void test_rules__after_a_round__earlier_effects_are_tried_again(void **st
   assert_false(holds(LAB_PHASE_ROUND, LAB_DO_REMOVE_NEEDLESS, &f));
 }
 
-static void test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second(void **state)
+TEST(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second)
 {
   lab_facts f = declared_alone();
   f.best.chi2 = 701;
@@ -242,7 +242,7 @@ static void test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the
   assert_false(holds(LAB_PHASE_ROUND, LAB_DO_FIT_TERM, &f));
 }
 
-static void test_rules__free_term__replaces_one_effect_by_half_and_two_by_less(void **state)
+TEST(test_rules__free_term__replaces_one_effect_by_half_and_two_by_less)
 {
   lab_facts f = two_effects();
   f.free_term = quality(599, 610);
@@ -258,7 +258,7 @@ static void test_rules__free_term__replaces_one_effect_by_half_and_two_by_less(v
   assert_false(holds(LAB_PHASE_END, LAB_DO_TAKE_TERM, &f));
 }
 
-static void test_rules__free_term_beside__needs_room_and_something_left(void **state)
+TEST(test_rules__free_term_beside__needs_room_and_something_left)
 {
   lab_facts f = two_effects();
   assert_true(holds(LAB_PHASE_END, LAB_DO_FIT_TERM_BESIDE, &f));
@@ -284,7 +284,7 @@ static void test_rules__free_term_beside__needs_room_and_something_left(void **s
   assert_false(holds(LAB_PHASE_END, LAB_DO_ADD_TERM, &f));
 }
 
-static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
+TEST(test_lab_decide_verdict__each_outcome__has_its_verdict)
 {
   lab_facts f = two_effects();
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
@@ -314,14 +314,14 @@ static void test_lab_decide_verdict__each_outcome__has_its_verdict(void **state)
 }
 
 /* A name can be found before everything was tried; that there is nothing to be found cannot. */
-static void test_lab_needs_the_whole_search__a_name__does_not(void **state)
+TEST(test_lab_needs_the_whole_search__a_name__does_not)
 {
   assert_true(lab_needs_the_whole_search(LAB_VERDICT_NONE));
   assert_true(lab_needs_the_whole_search(LAB_VERDICT_UNLISTED));
   assert_false(lab_needs_the_whole_search(LAB_VERDICT_EFFECT));
 }
 
-static void test_lab_values_stand_in__undecided_by_more_than_noise__they_do(void **state)
+TEST(test_lab_values_stand_in__undecided_by_more_than_noise__they_do)
 {
   assert_true(lab_values_stand_in(LAB_VERDICT_UNDECIDED, 2.26));
   assert_true(lab_values_stand_in(LAB_VERDICT_UNDECIDED, NAN));
@@ -331,25 +331,5 @@ static void test_lab_values_stand_in__undecided_by_more_than_noise__they_do(void
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_is_noise__chi_square_near_its_expectation__is_noise),
-      cmocka_unit_test(test_lab_is_clean__one_standard_deviation__is_the_limit),
-      cmocka_unit_test(test_lab_is_poor__half_of_the_excess__is_the_limit),
-      cmocka_unit_test(test_rules__first_scores__call_for_free_terms_where_no_effect_explains_it),
-      cmocka_unit_test(test_rules__free_term_that_comes_near__is_asked_with_tolerances_at_once),
-      cmocka_unit_test(test_rules__values_as_declared__end_where_tolerances_alone_are_better),
-      cmocka_unit_test(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_it_convinces),
-      cmocka_unit_test(test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left),
-      cmocka_unit_test(test_rules__values_as_declared__end_where_tolerances_beat_every_leader),
-      cmocka_unit_test(test_rules__values_within_tolerances__effects_come_before_onsets),
-      cmocka_unit_test(test_rules__extension__is_added_by_bic),
-      cmocka_unit_test(test_rules__after_a_round__earlier_effects_are_tried_again),
-      cmocka_unit_test(test_rules__after_a_round__a_free_term_waits_for_poor_effects_or_the_second),
-      cmocka_unit_test(test_lab_needs_the_whole_search__a_name__does_not),
-      cmocka_unit_test(test_lab_values_stand_in__undecided_by_more_than_noise__they_do),
-      cmocka_unit_test(test_rules__free_term__replaces_one_effect_by_half_and_two_by_less),
-      cmocka_unit_test(test_rules__free_term_beside__needs_room_and_something_left),
-      cmocka_unit_test(test_lab_decide_verdict__each_outcome__has_its_verdict),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -30,7 +30,7 @@ static void put(pneu_term *t, int first, int n, const double *value)
 
 /* ---- Equation ---- */
 
-static void test_lab_free_term_equation__every_one__is_that_of_the_report(void **state)
+TEST(test_lab_free_term_equation__every_one__is_that_of_the_report)
 {
   static const struct {
     int equation;
@@ -75,7 +75,7 @@ static void assert_stretch(const pneu_term *t, stretch want)
   assert_int_equal(got.is_short, want.is_short);
 }
 
-static void test_lab_free_term_stretch__bump__is_where_it_is(void **state)
+TEST(test_lab_free_term_stretch__bump__is_where_it_is)
 {
   static const double bump[] = {20, 60, 20}, dent[] = {-20, -60, -20};
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 20e-3, 0);
@@ -87,7 +87,7 @@ static void test_lab_free_term_stretch__bump__is_where_it_is(void **state)
 }
 
 /* Feet below 15 % of the peak are not where it acts; above it, they are. */
-static void test_lab_free_term_stretch__feet_of_a_bump__count_from_a_share_of_its_peak_on(void **state)
+TEST(test_lab_free_term_stretch__feet_of_a_bump__count_from_a_share_of_its_peak_on)
 {
   static const double low[] = {14, 100, -14}, high[] = {16, 100, -16};
   pneu_term t = flat(PNEU_TERM_FORCE, AT_X, -1, 9, 0);
@@ -98,7 +98,7 @@ static void test_lab_free_term_stretch__feet_of_a_bump__count_from_a_share_of_it
   assert_stretch(&t, wide);
 }
 
-static void test_lab_free_term_stretch__one_knot_at_an_end__reaches_half_of_the_way_to_the_next(void **state)
+TEST(test_lab_free_term_stretch__one_knot_at_an_end__reaches_half_of_the_way_to_the_next)
 {
   static const double high = 100;
   pneu_term t = flat(PNEU_TERM_FLOW, AT_X, 0, 20e-3, 0);
@@ -111,7 +111,7 @@ static void test_lab_free_term_stretch__one_knot_at_an_end__reaches_half_of_the_
   assert_stretch(&t, last);
 }
 
-static void test_lab_free_term_stretch__bump_on_a_level__departs_from_the_level(void **state)
+TEST(test_lab_free_term_stretch__bump_on_a_level__departs_from_the_level)
 {
   static const double bump[] = {130, 190, 130}, dent[] = {70, 10, 70};
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 10, 100);
@@ -123,7 +123,7 @@ static void test_lab_free_term_stretch__bump_on_a_level__departs_from_the_level(
 }
 
 /* Ends of 0 are held there: the level is 0 even where most knots are not. */
-static void test_lab_free_term_stretch__ends_at_zero__have_the_level_zero(void **state)
+TEST(test_lab_free_term_stretch__ends_at_zero__have_the_level_zero)
 {
   pneu_term t = flat(PNEU_TERM_FLOW, AT_P, 1e5, 2e5, 3e-6);
   const stretch all = {1.1e5, 1.9e5, 0, 3e-6, 0};
@@ -132,7 +132,7 @@ static void test_lab_free_term_stretch__ends_at_zero__have_the_level_zero(void *
 }
 
 /* From the median knot, a straight line departs to both sides alike. */
-static void test_lab_free_term_stretch__straight_line__is_everywhere(void **state)
+TEST(test_lab_free_term_stretch__straight_line__is_everywhere)
 {
   pneu_term t = flat(PNEU_TERM_FORCE, AT_X, 0, 10, 0);
   stretch got;
@@ -148,7 +148,7 @@ static void test_lab_free_term_stretch__straight_line__is_everywhere(void **stat
 }
 
 /* Half of the knots is where a stretch stops to be short. */
-static void test_lab_free_term_stretch__half_of_the_knots__is_no_longer_short(void **state)
+TEST(test_lab_free_term_stretch__half_of_the_knots__is_no_longer_short)
 {
   static const double five[] = {8, 8, 8, 8, 8}, six[] = {8, 8, 8, 8, 8, 8};
   pneu_term t = flat(PNEU_TERM_FORCE, AT_X, 0, 10, 0);
@@ -159,7 +159,7 @@ static void test_lab_free_term_stretch__half_of_the_knots__is_no_longer_short(vo
   assert_stretch(&t, larger);
 }
 
-static void test_lab_free_term_stretch__nothing__has_no_peak(void **state)
+TEST(test_lab_free_term_stretch__nothing__has_no_peak)
 {
   const pneu_term t = flat(PNEU_TERM_FORCE, AT_X, 2, 12, 0), level = flat(PNEU_TERM_FORCE, AT_X, 2, 12, -5);
   assert_close(stretch_of(&t).peak, 0, 0, 0);
@@ -169,7 +169,7 @@ static void test_lab_free_term_stretch__nothing__has_no_peak(void **state)
 
 /* A log that has been from 0 to 12 of 20, or from 8 on, and found 100 nearly all along: what it has not reached is no
  * departure from that. */
-static void test_lab_free_term_stretch__knots_that_no_log_has_reached__do_not_count(void **state)
+TEST(test_lab_free_term_stretch__knots_that_no_log_has_reached__do_not_count)
 {
   static const double found[] = {101, 99, 100, 130, 100, 98, 102}, line[] = {10, 30, 50, 70, 90, 110, 140};
   pneu_term low = flat(PNEU_TERM_FRICTION, AT_X, 0, 20, 0), high = low, rising = low;
@@ -183,7 +183,7 @@ static void test_lab_free_term_stretch__knots_that_no_log_has_reached__do_not_co
 }
 
 /* Zeros on more than half of the stretch are the level from which the others depart. */
-static void test_lab_free_term_stretch__mostly_zero__has_the_level_zero(void **state)
+TEST(test_lab_free_term_stretch__mostly_zero__has_the_level_zero)
 {
   static const double end[] = {60, 50, 40, 30, 20};
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 20, 0);
@@ -193,7 +193,7 @@ static void test_lab_free_term_stretch__mostly_zero__has_the_level_zero(void **s
 }
 
 /* Amplitudes are no knots: where one is larger than the other is no place. */
-static void test_lab_free_term_stretch__cycle__is_all_of_it(void **state)
+TEST(test_lab_free_term_stretch__cycle__is_all_of_it)
 {
   static const double amplitudes[] = {50, -120, 3, 4};
   pneu_term t = flat(PNEU_TERM_FORCE, PNEU_TERM_OVER_CYCLE, 0, 1.87, 0);
@@ -222,7 +222,7 @@ static pneu_term local(int equation, int argument, double to, double peak)
   return t;
 }
 
-static void test_lab_free_term_where__short_stretch__is_named_with_its_units(void **state)
+TEST(test_lab_free_term_where__short_stretch__is_named_with_its_units)
 {
   static const struct {
     int equation, argument;
@@ -246,7 +246,7 @@ static void test_lab_free_term_where__short_stretch__is_named_with_its_units(voi
   }
 }
 
-static void test_lab_free_term_where__long_stretch__is_nearly_everywhere(void **state)
+TEST(test_lab_free_term_where__long_stretch__is_nearly_everywhere)
 {
   static const double all[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 14};
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_X, 0, 20e-3, 0);
@@ -256,7 +256,7 @@ static void test_lab_free_term_where__long_stretch__is_nearly_everywhere(void **
   assert_where(&t, "nearly everywhere, x = 0 .. 20.0 mm; largest value 8.00 N");
 }
 
-static void test_lab_free_term_where__long_stretch_with_ends_at_zero__is_a_stretch(void **state)
+TEST(test_lab_free_term_where__long_stretch_with_ends_at_zero__is_a_stretch)
 {
   pneu_term t = flat(PNEU_TERM_SHOWN_PRESSURE, AT_P, 0, 5e5, 2e3);
   t.value[0] = t.value[KNOTS - 1] = 0;
@@ -265,7 +265,7 @@ static void test_lab_free_term_where__long_stretch_with_ends_at_zero__is_a_stret
   assert_where(&t, "p = 100 .. 450 kPa; largest value 2.00 kPa");
 }
 
-static void test_lab_free_term_where__long_numbers__fit(void **state)
+TEST(test_lab_free_term_where__long_numbers__fit)
 {
   pneu_term t = flat(PNEU_TERM_FRICTION, AT_V, -1.23e252, 4.56e252, 0);
   char text[LAB_WHERE_TEXT];
@@ -278,7 +278,7 @@ static void test_lab_free_term_where__long_numbers__fit(void **state)
 }
 
 /* Every 1.87 s, by its largest amplitude: hypot(147, 198.5) = 247, and hypot(30, 40) of the half period. */
-static void test_lab_free_term_where__cycle__is_told_by_period_frequency_and_amplitude(void **state)
+TEST(test_lab_free_term_where__cycle__is_told_by_period_frequency_and_amplitude)
 {
   static const struct {
     int equation;
@@ -304,24 +304,5 @@ static void test_lab_free_term_where__cycle__is_told_by_period_frequency_and_amp
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_free_term_equation__every_one__is_that_of_the_report),
-      cmocka_unit_test(test_lab_free_term_stretch__bump__is_where_it_is),
-      cmocka_unit_test(test_lab_free_term_stretch__feet_of_a_bump__count_from_a_share_of_its_peak_on),
-      cmocka_unit_test(test_lab_free_term_stretch__one_knot_at_an_end__reaches_half_of_the_way_to_the_next),
-      cmocka_unit_test(test_lab_free_term_stretch__bump_on_a_level__departs_from_the_level),
-      cmocka_unit_test(test_lab_free_term_stretch__ends_at_zero__have_the_level_zero),
-      cmocka_unit_test(test_lab_free_term_stretch__straight_line__is_everywhere),
-      cmocka_unit_test(test_lab_free_term_stretch__half_of_the_knots__is_no_longer_short),
-      cmocka_unit_test(test_lab_free_term_stretch__nothing__has_no_peak),
-      cmocka_unit_test(test_lab_free_term_stretch__knots_that_no_log_has_reached__do_not_count),
-      cmocka_unit_test(test_lab_free_term_stretch__mostly_zero__has_the_level_zero),
-      cmocka_unit_test(test_lab_free_term_stretch__cycle__is_all_of_it),
-      cmocka_unit_test(test_lab_free_term_where__short_stretch__is_named_with_its_units),
-      cmocka_unit_test(test_lab_free_term_where__long_stretch__is_nearly_everywhere),
-      cmocka_unit_test(test_lab_free_term_where__long_stretch_with_ends_at_zero__is_a_stretch),
-      cmocka_unit_test(test_lab_free_term_where__long_numbers__fit),
-      cmocka_unit_test(test_lab_free_term_where__cycle__is_told_by_period_frequency_and_amplitude),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

@@ -61,7 +61,7 @@ static void assert_period(double got, double want, double length)
 }
 
 /* Rows of 1/51.5 s make a hum of 50 Hz one of 1.5 Hz. */
-static void test_lab_residual_periods__where_a_hum_would_be_seen__is_no_cycle(void **state)
+TEST(test_lab_residual_periods__where_a_hum_would_be_seen__is_no_cycle)
 {
   enum { N = 2000 };
   const double every = 1 / 1.5;
@@ -79,7 +79,7 @@ static void test_lab_residual_periods__where_a_hum_would_be_seen__is_no_cycle(vo
 }
 
 /* Noise of 2000 rows has a power of 1 on every line, a sine of 0.3 one of 45. */
-static void test_lab_residual_periods__sine_in_noise__is_found_first(void **state)
+TEST(test_lab_residual_periods__sine_in_noise__is_found_first)
 {
   static const double amplitude[] = {0.3, 1, 5}, every[] = {0.21, 1.87, 9.3};
   enum { N = 2000 };
@@ -97,7 +97,7 @@ static void test_lab_residual_periods__sine_in_noise__is_found_first(void **stat
 }
 
 /* Single rows and a long stretch without values: a residual of 0. */
-static void test_lab_residual_periods__gaps__do_not_hide_it(void **state)
+TEST(test_lab_residual_periods__gaps__do_not_hide_it)
 {
   enum { N = 2000 };
   uint64_t seed = 3;
@@ -113,7 +113,7 @@ static void test_lab_residual_periods__gaps__do_not_hide_it(void **state)
 }
 
 /* Rows at other distances; a stretch that the log leaves out. */
-static void test_lab_residual_periods__uneven_rows__do_not_hide_it(void **state)
+TEST(test_lab_residual_periods__uneven_rows__do_not_hide_it)
 {
   enum { N = 2000 };
   uint64_t seed = 4;
@@ -128,7 +128,7 @@ static void test_lab_residual_periods__uneven_rows__do_not_hide_it(void **state)
 }
 
 /* More rows than cells: their means. */
-static void test_lab_residual_periods__long_log__is_seen_in_cells(void **state)
+TEST(test_lab_residual_periods__long_log__is_seen_in_cells)
 {
   open_log(0, ROWS);
   fill_with_noise(6);
@@ -138,7 +138,7 @@ static void test_lab_residual_periods__long_log__is_seen_in_cells(void **state)
 }
 
 /* Their powers add up to 26, whatever the phases, where noise reaches 11. */
-static void test_lab_residual_periods__two_logs_out_of_phase__add_up(void **state)
+TEST(test_lab_residual_periods__two_logs_out_of_phase__add_up)
 {
   enum { N = 2000, SHORT = 1300 };
   int i;
@@ -154,7 +154,7 @@ static void test_lab_residual_periods__two_logs_out_of_phase__add_up(void **stat
   }
 }
 
-static void test_lab_residual_periods__two_sines__are_found_in_the_order_of_their_size(void **state)
+TEST(test_lab_residual_periods__two_sines__are_found_in_the_order_of_their_size)
 {
   enum { N = 2000 };
   open_log(0, N);
@@ -167,7 +167,7 @@ static void test_lab_residual_periods__two_sines__are_found_in_the_order_of_thei
 }
 
 /* A slow drift is higher than any sine, but so are its surroundings. */
-static void test_lab_residual_periods__drift__does_not_hide_it(void **state)
+TEST(test_lab_residual_periods__drift__does_not_hide_it)
 {
   enum { N = 2000 };
   uint64_t seed = 8;
@@ -183,7 +183,7 @@ static void test_lab_residual_periods__drift__does_not_hide_it(void **state)
 }
 
 /* A single row, however far off, says nothing of cycles. */
-static void test_lab_residual_periods__log_of_one_row__does_not_count(void **state)
+TEST(test_lab_residual_periods__log_of_one_row__does_not_count)
 {
   enum { N = 2000 };
   double alone[LAB_PERIODS_MAX];
@@ -202,7 +202,7 @@ static void test_lab_residual_periods__log_of_one_row__does_not_count(void **sta
 
 /* Where noise has a line that stands out, it may be any: a tenth of them in each tenth, give or take four standard
  * deviations; and few of 228 lines stand out. */
-static void test_lab_residual_periods__white_noise__prefers_no_period(void **state)
+TEST(test_lab_residual_periods__white_noise__prefers_no_period)
 {
   enum { N = 480, TRIALS = 800 };
   const double length = (N - 1) * spacing, low = 3 / length, high = N / (8 * length);
@@ -229,7 +229,7 @@ static void test_lab_residual_periods__white_noise__prefers_no_period(void **sta
 }
 
 /* Three cycles to a log and eight rows to a cycle. */
-static void test_lab_residual_periods__too_short_a_log__has_none(void **state)
+TEST(test_lab_residual_periods__too_short_a_log__has_none)
 {
   static const size_t few[] = {2, 10, 24};
   int i;
@@ -248,18 +248,5 @@ static void test_lab_residual_periods__too_short_a_log__has_none(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_residual_periods__sine_in_noise__is_found_first),
-      cmocka_unit_test(test_lab_residual_periods__where_a_hum_would_be_seen__is_no_cycle),
-      cmocka_unit_test(test_lab_residual_periods__gaps__do_not_hide_it),
-      cmocka_unit_test(test_lab_residual_periods__uneven_rows__do_not_hide_it),
-      cmocka_unit_test(test_lab_residual_periods__long_log__is_seen_in_cells),
-      cmocka_unit_test(test_lab_residual_periods__two_logs_out_of_phase__add_up),
-      cmocka_unit_test(test_lab_residual_periods__two_sines__are_found_in_the_order_of_their_size),
-      cmocka_unit_test(test_lab_residual_periods__drift__does_not_hide_it),
-      cmocka_unit_test(test_lab_residual_periods__log_of_one_row__does_not_count),
-      cmocka_unit_test(test_lab_residual_periods__white_noise__prefers_no_period),
-      cmocka_unit_test(test_lab_residual_periods__too_short_a_log__has_none),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

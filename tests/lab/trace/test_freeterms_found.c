@@ -104,20 +104,20 @@ static void check_cycle(int equation, double period, double cosine, double sine)
   assert_true(surplus(0) > 1.5 * surplus(1) || slot[1].term.argument == PNEU_TERM_OVER_CYCLE);
 }
 
-static void test_lab_score_free_terms__periodic_force__ranks_force_over_cycles_first(void **state)
+TEST(test_lab_score_free_terms__periodic_force__ranks_force_over_cycles_first)
 {
   check_cycle(PNEU_TERM_FORCE, 1.87, 50, -60);
   check_cycle(PNEU_TERM_FORCE, 4.3, -40, 30);
 }
 
-static void test_lab_score_free_terms__periodic_supply__ranks_supply_over_cycles_first(void **state)
+TEST(test_lab_score_free_terms__periodic_supply__ranks_supply_over_cycles_first)
 {
   check_cycle(PNEU_TERM_SUPPLY, 2.3, 2e4, 1.5e4);
   check_cycle(PNEU_TERM_SUPPLY, 5.1, -1e4, 3e4);
 }
 
 /* A bump where the stem passes four times. */
-static void test_lab_score_free_terms__friction_bump__ranks_friction_over_position_first(void **state)
+TEST(test_lab_score_free_terms__friction_bump__ranks_friction_over_position_first)
 {
   pneu_term bump = {PNEU_TERM_FRICTION, PNEU_TERM_OVER_POSITION, 11, 0, (pneu_real)0.02, {0}};
   int i, n;
@@ -136,7 +136,7 @@ static void test_lab_score_free_terms__friction_bump__ranks_friction_over_positi
 
 /* T is chi-square with its degrees of freedom where nothing is missing: within five standard deviations. That of a
  * cycle is the largest over all periods, 500 of them: below 2 ln(500) + 2 ln(100). */
-static void test_lab_score_free_terms__nothing_missing__is_chance(void **state)
+TEST(test_lab_score_free_terms__nothing_missing__is_chance)
 {
   int seed, i;
   for (seed = 5; seed < 9; seed++) {
@@ -152,7 +152,7 @@ static void test_lab_score_free_terms__nothing_missing__is_chance(void **state)
   }
 }
 
-static void test_lab_score_free_terms__model_full_of_terms__has_no_slots(void **state)
+TEST(test_lab_score_free_terms__model_full_of_terms__has_no_slots)
 {
   lab_projection scan;
   int i, n;
@@ -170,14 +170,7 @@ static void test_lab_score_free_terms__model_full_of_terms__has_no_slots(void **
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_score_free_terms__periodic_force__ranks_force_over_cycles_first),
-      cmocka_unit_test(test_lab_score_free_terms__periodic_supply__ranks_supply_over_cycles_first),
-      cmocka_unit_test(test_lab_score_free_terms__friction_bump__ranks_friction_over_position_first),
-      cmocka_unit_test(test_lab_score_free_terms__nothing_missing__is_chance),
-      cmocka_unit_test(test_lab_score_free_terms__model_full_of_terms__has_no_slots),
-  };
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  const int failed = tests_run(NULL, NULL);
   lab_run_close(&run);
   return failed;
 }

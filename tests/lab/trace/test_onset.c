@@ -85,7 +85,7 @@ static int is_said(const char *name)
   return said;
 }
 
-static void test_lab_search_run__leak_that_begins__is_named_since_when(void **state)
+TEST(test_lab_search_run__leak_that_begins__is_named_since_when)
 {
   const second_rig first = true_rig();
   second_rig later = first;
@@ -102,7 +102,7 @@ static void test_lab_search_run__leak_that_begins__is_named_since_when(void **st
 }
 
 /* The stem is at rest as its friction rises: when it does shows at the next move only. */
-static void test_lab_search_run__friction_that_rises__deviates_since_then(void **state)
+TEST(test_lab_search_run__friction_that_rises__deviates_since_then)
 {
   const second_rig first = true_rig();
   second_rig later = first;
@@ -118,7 +118,7 @@ static void test_lab_search_run__friction_that_rises__deviates_since_then(void *
   close_log();
 }
 
-static void test_lab_search_run__supply_that_falls__deviates_since_then(void **state)
+TEST(test_lab_search_run__supply_that_falls__deviates_since_then)
 {
   const second_rig first = true_rig();
   second_rig later = first;
@@ -130,7 +130,7 @@ static void test_lab_search_run__supply_that_falls__deviates_since_then(void **s
   close_log();
 }
 
-static void test_lab_search_run__nothing_begins__has_no_onset(void **state)
+TEST(test_lab_search_run__nothing_begins__has_no_onset)
 {
   second_rig g = true_rig();
   close_loop(&g, NULL, 0);
@@ -160,7 +160,7 @@ static void fit_early(const second_rig *first, const second_rig *later, double c
   assert_int_equal(lab_early_fit(&within, 0, 0.01, &onset, &begins, &sound, &error), LAB_OK);
 }
 
-static void test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_model(void **state)
+TEST(test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_model)
 {
   const second_rig first = true_rig();
   second_rig later = first;
@@ -175,7 +175,7 @@ static void test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_
   close_log();
 }
 
-static void test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run(void **state)
+TEST(test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run)
 {
   const second_rig g = true_rig();
   fit_early(&g, NULL, 0);
@@ -186,7 +186,7 @@ static void test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run(void
   close_log();
 }
 
-static void test_lab_early_fit__missing_from_the_start__finds_neither(void **state)
+TEST(test_lab_early_fit__missing_from_the_start__finds_neither)
 {
   second_rig g = true_rig();
   g.leak_area = 2e-8;
@@ -213,7 +213,7 @@ static int leak_begins(const second_rig *first, const second_rig *later)
   return begin.known;
 }
 
-static void test_lab_onset_extend__leak__begins_only_where_it_does(void **state)
+TEST(test_lab_onset_extend__leak__begins_only_where_it_does)
 {
   const second_rig tight = true_rig();
   second_rig leaks = tight;
@@ -223,7 +223,7 @@ static void test_lab_onset_extend__leak__begins_only_where_it_does(void **state)
 }
 
 /* What a sensor shows is a state that goes on when the supply falls. */
-static void test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on(void **state)
+TEST(test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on)
 {
   const second_rig g = true_rig();
   const double from = 2.5; /* [s] both orifices are shut */
@@ -247,16 +247,5 @@ static void test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on(voi
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_search_run__leak_that_begins__is_named_since_when),
-      cmocka_unit_test(test_lab_search_run__friction_that_rises__deviates_since_then),
-      cmocka_unit_test(test_lab_search_run__supply_that_falls__deviates_since_then),
-      cmocka_unit_test(test_lab_search_run__nothing_begins__has_no_onset),
-      cmocka_unit_test(test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_model),
-      cmocka_unit_test(test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run),
-      cmocka_unit_test(test_lab_early_fit__missing_from_the_start__finds_neither),
-      cmocka_unit_test(test_lab_onset_extend__leak__begins_only_where_it_does),
-      cmocka_unit_test(test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

@@ -48,7 +48,7 @@ static void assert_whole(void)
   assert_true(lab_is_noise(&found.best.quality));
 }
 
-static void test_lab_preview_search__leak__is_that_of_the_whole_run(void **state)
+TEST(test_lab_preview_search__leak__is_that_of_the_whole_run)
 {
   second_rig g = virtual_rig(5);
   g.leak_area = 2e-8;
@@ -63,7 +63,7 @@ static void test_lab_preview_search__leak__is_that_of_the_whole_run(void **state
   close_log();
 }
 
-static void test_lab_preview_search__nothing_is_missing__finds_nothing(void **state)
+TEST(test_lab_preview_search__nothing_is_missing__finds_nothing)
 {
   const second_rig g = virtual_rig(6);
   assert_true(preview(&g, NULL, 0));
@@ -76,7 +76,7 @@ static void test_lab_preview_search__nothing_is_missing__finds_nothing(void **st
 }
 
 /* After what was seen of it: the values of the beginning tell when the run leaves them, and by what. */
-static void test_lab_preview_search__spring_that_breaks_later__is_found_from_there(void **state)
+TEST(test_lab_preview_search__spring_that_breaks_later__is_found_from_there)
 {
   const second_rig first = virtual_rig(7);
   second_rig later = first;
@@ -92,7 +92,7 @@ static void test_lab_preview_search__spring_that_breaks_later__is_found_from_the
 }
 
 /* What it has seen is until when the run is as declared. */
-static void test_lab_preview_search__much_that_begins_later__is_left_to_the_search_of_the_whole(void **state)
+TEST(test_lab_preview_search__much_that_begins_later__is_left_to_the_search_of_the_whole)
 {
   const second_rig first = virtual_rig(7);
   second_rig later = first;
@@ -106,7 +106,7 @@ static void test_lab_preview_search__much_that_begins_later__is_left_to_the_sear
   close_log();
 }
 
-static void test_lab_preview_is_asked__short_or_several_or_coarse__no(void **state)
+TEST(test_lab_preview_is_asked__short_or_several_or_coarse__no)
 {
   static lab_log log;
   lab_run of_rows = {.n = 3000, .log = &log};
@@ -129,12 +129,5 @@ static void test_lab_preview_is_asked__short_or_several_or_coarse__no(void **sta
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_preview_search__leak__is_that_of_the_whole_run),
-      cmocka_unit_test(test_lab_preview_search__nothing_is_missing__finds_nothing),
-      cmocka_unit_test(test_lab_preview_search__spring_that_breaks_later__is_found_from_there),
-      cmocka_unit_test(test_lab_preview_search__much_that_begins_later__is_left_to_the_search_of_the_whole),
-      cmocka_unit_test(test_lab_preview_is_asked__short_or_several_or_coarse__no),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return tests_run(NULL, NULL);
 }

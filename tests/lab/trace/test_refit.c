@@ -35,7 +35,7 @@ static void open_log(const second_rig *g, lab_unknowns *u)
 
 /* Instants of commands are known to their rows: they cost nothing, whether they are fitted or vary unseen. With
  * friction alone to count, the price is the logarithm of the number of values. */
-static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way(void **state)
+TEST(test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way)
 {
   static lab_candidate whole, folded;
   static lab_nuisance nuisance;
@@ -72,7 +72,7 @@ static void test_lab_candidate_fit__instants_of_commands__cost_nothing_either_wa
 }
 
 /* A clock is known to 5 ms: one that is 60 ms off is missing from what was declared, one that is 6 ms off is not. */
-static void test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_tolerance(void **state)
+TEST(test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_tolerance)
 {
   static const double skew[] = {0.006, 0.06};
   static lab_candidate c;
@@ -99,7 +99,7 @@ static void test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_
 
 /* A leak beside values that are off within their tolerances, begun at a tenth of its size with the fitted values far
  * from where they belong: from the declared values it is found all the same. */
-static void test_lab_candidate_stage__bent_values__are_left_behind(void **state)
+TEST(test_lab_candidate_stage__bent_values__are_left_behind)
 {
   static lab_candidate c, staged;
   static lab_unknowns declared;
@@ -140,7 +140,7 @@ static lab_candidate begun(const char *param, double bic)
 }
 
 /* A supply that falls goes before one that gives way, unless that is better by odds. */
-static void test_lab_refit_put_simplest_first__value_that_changes__gives_way_to_odds(void **state)
+TEST(test_lab_refit_put_simplest_first__value_that_changes__gives_way_to_odds)
 {
   static lab_candidate c[3];
   const double alike = lab_constant(LAB_ALIKE_BIC);
@@ -161,11 +161,5 @@ static void test_lab_refit_put_simplest_first__value_that_changes__gives_way_to_
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way),
-      cmocka_unit_test(test_lab_candidate_stage__bent_values__are_left_behind),
-      cmocka_unit_test(test_lab_refit_put_simplest_first__value_that_changes__gives_way_to_odds),
-      cmocka_unit_test(test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_tolerance),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

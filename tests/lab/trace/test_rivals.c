@@ -11,7 +11,7 @@ static void expect_effect(int which, const char *name)
   assert_string_equal(pneu_effect_at(h.c.found[which].effect)->name, name);
 }
 
-static void test_lab_rivals_try__second_best_effect__gives_way_to_the_true_one(void **state)
+TEST(test_lab_rivals_try__second_best_effect__gives_way_to_the_true_one)
 {
   second_rig truth = virtual_rig(11);
   lab_error error = {0, ""};
@@ -32,7 +32,7 @@ static void test_lab_rivals_try__second_best_effect__gives_way_to_the_true_one(v
   held_close(&h);
 }
 
-static void test_lab_rivals_try__true_effects__stay_in_their_order(void **state)
+TEST(test_lab_rivals_try__true_effects__stay_in_their_order)
 {
   second_rig truth = virtual_rig(12);
   lab_error error = {0, ""};
@@ -51,9 +51,5 @@ static void test_lab_rivals_try__true_effects__stay_in_their_order(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_rivals_try__second_best_effect__gives_way_to_the_true_one),
-      cmocka_unit_test(test_lab_rivals_try__true_effects__stay_in_their_order),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }

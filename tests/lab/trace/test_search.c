@@ -92,7 +92,7 @@ static const lab_deviation *deviation(const char *name)
 }
 
 /* A dead volume a fifth off is within its tolerance: nothing is missing, and what is off is told. */
-static void test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviation_and_no_effect(void **state)
+TEST(test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviation_and_no_effect)
 {
   const lab_deviation *d;
   second_rig g = true_rig();
@@ -106,7 +106,7 @@ static void test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviatio
 }
 
 /* Friction of twice its declared value is wear, whatever explains the log. */
-static void test_lab_search_run__friction_beyond_its_tolerance__deviates(void **state)
+TEST(test_lab_search_run__friction_beyond_its_tolerance__deviates)
 {
   const lab_deviation *d;
   second_rig g = true_rig();
@@ -121,7 +121,7 @@ static void test_lab_search_run__friction_beyond_its_tolerance__deviates(void **
 
 /* Chi-square is a parabola here, so that an interval that was made ten times too narrow comes back, and one that is
  * right stays. */
-static void test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says(void **state)
+TEST(test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says)
 {
   static lab_fit_result fit;
   const second_rig g = true_rig();
@@ -158,7 +158,7 @@ static int is_told(const char *name)
 
 /* Pressure follows position, so that friction may grow with either; values fitted beside one of them, and held beside
  * the other, do not tell them apart. */
-static void test_lab_search_run__friction_over_position_and_tolerances__over_pressure_is_alike(void **state)
+TEST(test_lab_search_run__friction_over_position_and_tolerances__over_pressure_is_alike)
 {
   second_rig g = true_rig();
   g.friction_position = 0.12;
@@ -171,7 +171,7 @@ static void test_lab_search_run__friction_over_position_and_tolerances__over_pre
 }
 
 /* What no value within its tolerance does is named. */
-static void test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass(void **state)
+TEST(test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass)
 {
   second_rig g = true_rig();
   g.leak_area = 0.02 * g.vent_area;
@@ -182,7 +182,7 @@ static void test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass(
   assert_string_equal(pneu_effect_at(result.found[0].effect)->equation, "mass"); /* it may be the porous one */
 }
 
-static void test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters(void **state)
+TEST(test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters)
 {
   const second_rig g = true_rig();
   run_loop(&g, brisk, 0);
@@ -194,7 +194,7 @@ static void test_lab_search_run__nothing_missing__says_none_and_finds_the_parame
   assert_close(u.rig.params.dry_friction, 480, 0, 2e-2);
 }
 
-static void test_lab_search_run__noisier_than_declared__is_noise_all_the_same(void **state)
+TEST(test_lab_search_run__noisier_than_declared__is_noise_all_the_same)
 {
   second_rig g = true_rig();
   g.pressure_noise *= 1.25;
@@ -205,7 +205,7 @@ static void test_lab_search_run__noisier_than_declared__is_noise_all_the_same(vo
 }
 
 /* The fit bends so far that the slope of the missing film has the wrong sign, and the truth is at its bound. */
-static void test_lab_search_run__adiabatic_chamber__lacks_heat_transfer(void **state)
+TEST(test_lab_search_run__adiabatic_chamber__lacks_heat_transfer)
 {
   second_rig g = true_rig();
   g.gas = SECOND_ENERGY;
@@ -214,7 +214,7 @@ static void test_lab_search_run__adiabatic_chamber__lacks_heat_transfer(void **s
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
 
-static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **state)
+TEST(test_lab_search_run__polytropic_chamber__lacks_its_exponent)
 {
   second_rig g = true_rig();
   fixture_need("chamber_exponent");
@@ -230,7 +230,7 @@ static void test_lab_search_run__polytropic_chamber__lacks_its_exponent(void **s
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
 
-static void test_lab_search_run__leak__is_named_and_sized(void **state)
+TEST(test_lab_search_run__leak__is_named_and_sized)
 {
   second_rig g = true_rig();
   fixture_need("chamber_leak");
@@ -255,7 +255,7 @@ static int is_listed(const char *name)
 
 /* What takes less off the error than is asked for is listed, or added where that is plain and leaves white noise; least
  * of all is an error that falls because commands that are held to straight lines are let go. */
-static void test_lab_search_run__small_leak__is_added_where_it_is_plain(void **state)
+TEST(test_lab_search_run__small_leak__is_added_where_it_is_plain)
 {
   static const double share[] = {0.0013, 0.002, 0.0035};
   static const int plain[] = {0, 0, 1};
@@ -276,7 +276,7 @@ static void test_lab_search_run__small_leak__is_added_where_it_is_plain(void **s
 }
 
 /* Bonferroni: the level of a single score is that of all, shared by the slopes that were tried. */
-static void test_lab_search_run__many_slopes__share_the_level(void **state)
+TEST(test_lab_search_run__many_slopes__share_the_level)
 {
   const second_rig g = true_rig();
   lab_search_options options;
@@ -288,7 +288,7 @@ static void test_lab_search_run__many_slopes__share_the_level(void **state)
 
 /* Friction of a place, which the catalogue does not have, under commands that go through the whole stroke. The bump
  * falls to 15 % of its peak 2.07 mm from its middle, where it no longer counts as acting; knots lie 0.3 mm apart. */
-static void test_lab_search_run__friction_bump__is_a_force_at_its_place(void **state)
+TEST(test_lab_search_run__friction_bump__is_a_force_at_its_place)
 {
   static const double through[COMMANDS] = {1, 0.9, -1, 0.5, -0.5};
   second_rig g = true_rig();
@@ -318,7 +318,7 @@ static void test_lab_search_run__friction_bump__is_a_force_at_its_place(void **s
 }
 
 /* A stem that sticks and slips under slow commands: no model keeps in step with it row by row. */
-static void test_lab_search_run__stick_slip__is_seen_coarsely_and_named(void **state)
+TEST(test_lab_search_run__stick_slip__is_seen_coarsely_and_named)
 {
   static const double slow[COMMANDS] = {0.06, 0.05, -0.05, 0.06, -0.05};
   second_rig g = true_rig();
@@ -337,7 +337,7 @@ static void test_lab_search_run__stick_slip__is_seen_coarsely_and_named(void **s
 
 /* ---- What is noted ---- */
 
-static void test_lab_search_list_small__again_and_again__is_there_once(void **state)
+TEST(test_lab_search_list_small__again_and_again__is_there_once)
 {
   static lab_search_result r;
   int i;
@@ -348,7 +348,7 @@ static void test_lab_search_list_small__again_and_again__is_there_once(void **st
 }
 
 /* The last model is the one that the search ends with; those before it may be missing. */
-static void test_lab_rounds_note_way__full__has_the_last(void **state)
+TEST(test_lab_rounds_note_way__full__has_the_last)
 {
   static lab_search_result r;
   static lab_candidate c;
@@ -365,23 +365,5 @@ static void test_lab_rounds_note_way__full__has_the_last(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lab_search_run__dead_volume_within_its_tolerance__is_a_deviation_and_no_effect),
-      cmocka_unit_test(test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says),
-      cmocka_unit_test(test_lab_search_run__friction_beyond_its_tolerance__deviates),
-      cmocka_unit_test(test_lab_search_run__friction_over_position_and_tolerances__over_pressure_is_alike),
-      cmocka_unit_test(test_lab_search_run__leak_and_tolerances__is_one_effect_of_the_mass),
-      cmocka_unit_test(test_lab_search_run__nothing_missing__says_none_and_finds_the_parameters),
-      cmocka_unit_test(test_lab_search_run__noisier_than_declared__is_noise_all_the_same),
-      cmocka_unit_test(test_lab_search_run__adiabatic_chamber__lacks_heat_transfer),
-      cmocka_unit_test(test_lab_search_run__polytropic_chamber__lacks_its_exponent),
-      cmocka_unit_test(test_lab_search_run__leak__is_named_and_sized),
-      cmocka_unit_test(test_lab_search_run__small_leak__is_added_where_it_is_plain),
-      cmocka_unit_test(test_lab_search_run__many_slopes__share_the_level),
-      cmocka_unit_test(test_lab_search_run__friction_bump__is_a_force_at_its_place),
-      cmocka_unit_test(test_lab_search_run__stick_slip__is_seen_coarsely_and_named),
-      cmocka_unit_test(test_lab_search_list_small__again_and_again__is_there_once),
-      cmocka_unit_test(test_lab_rounds_note_way__full__has_the_last),
-  };
-  return cmocka_run_group_tests(tests, scratch_open, scratch_close);
+  return tests_run(scratch_open, scratch_close);
 }
