@@ -115,82 +115,32 @@ int lab_name_is_unit(const char *text)
 /* ---- Words ---- */
 
 /* What names mean; the first row that fits decides. A word of three letters or fewer must stand alone. */
-static const struct name_word {
-  const char *word;
+enum { ROW_WORDS = 15, LONE = 3 };
+static const struct name_row {
   int channel;
-} name_words[] = {
-    {"ambient", LAB_COLUMN_IGNORED},
-    {"umgebung", LAB_COLUMN_IGNORED},
-    {"atmos", LAB_COLUMN_IGNORED},
-    {"baro", LAB_COLUMN_IGNORED},
-    {"differential", LAB_COLUMN_IGNORED},
-    {"delta", LAB_COLUMN_IGNORED},
-    {"deviation", LAB_COLUMN_IGNORED},
-    {"abweichung", LAB_COLUMN_IGNORED},
-    {"error", LAB_COLUMN_IGNORED},
-    {"fehler", LAB_COLUMN_IGNORED},
-    {"status", LAB_COLUMN_IGNORED},
-    {"quality", LAB_COLUMN_IGNORED},
-    {"validity", LAB_COLUMN_IGNORED},
-    {"comment", LAB_COLUMN_IGNORED},
-    {"drive", LAB_COLUMN_IGNORED},
-    {"x value", LAB_CHANNEL_TIME},
-    {"supply", LAB_CHANNEL_PS},
-    {"zuluft", LAB_CHANNEL_PS},
-    {"versorgung", LAB_CHANNEL_PS},
-    {"speise", LAB_CHANNEL_PS},
-    {" temp", LAB_CHANNEL_T},
-    {"force", LAB_CHANNEL_FORCE},
-    {"kraft", LAB_CHANNEL_FORCE},
-    {"setpoint", LAB_CHANNEL_SP},
-    {"set point", LAB_CHANNEL_SP},
-    {"set position", LAB_CHANNEL_SP},
-    {"target", LAB_CHANNEL_SP},
-    {"demand", LAB_CHANNEL_SP},
-    {"soll", LAB_CHANNEL_SP},
-    {"stellsignal", LAB_CHANNEL_SP},
-    {"sp", LAB_CHANNEL_SP},
-    {"command", LAB_CHANNEL_U},
-    {"cmd", LAB_CHANNEL_U},
-    {"solenoid", LAB_CHANNEL_U},
-    {"befehl", LAB_CHANNEL_U},
-    {"valve signal", LAB_CHANNEL_U},
-    {"magnetventil", LAB_CHANNEL_U},
-    {"u", LAB_CHANNEL_U},
-    {"consigne", LAB_CHANNEL_SP},
-    {"commande", LAB_CHANNEL_U},
-    {"alimentation", LAB_CHANNEL_PS},
-    {"course", LAB_CHANNEL_X},
-    {"pression", LAB_CHANNEL_P},
-    {"temps", LAB_CHANNEL_TIME},
-    {"travel", LAB_CHANNEL_X},
-    {"position", LAB_CHANNEL_X},
-    {"pos", LAB_CHANNEL_X},
-    {"hub", LAB_CHANNEL_X},
-    {"weg", LAB_CHANNEL_X},
-    {"stellung", LAB_CHANNEL_X},
-    {"istwert", LAB_CHANNEL_X},
-    {" stem", LAB_CHANNEL_X},
-    {"stroke", LAB_CHANNEL_X},
-    {"displacement", LAB_CHANNEL_X},
-    {"lvdt", LAB_CHANNEL_X},
-    {"feedback", LAB_CHANNEL_X},
-    {"pv", LAB_CHANNEL_X},
-    {"x", LAB_CHANNEL_X},
-    {"pressure", LAB_CHANNEL_P},
-    {"press", LAB_CHANNEL_P},
-    {"druck", LAB_CHANNEL_P},
-    {"p1", LAB_CHANNEL_P},
-    {"p", LAB_CHANNEL_P},
-    {"time", LAB_CHANNEL_TIME},
-    {"zeit", LAB_CHANNEL_TIME},
-    {"date", LAB_CHANNEL_TIME},
-    {"datum", LAB_CHANNEL_TIME},
-    {"elapsed", LAB_CHANNEL_TIME},
-    {"second", LAB_CHANNEL_TIME},
-    {"t", LAB_CHANNEL_TIME},
-};
-enum { NAME_WORDS = sizeof name_words / sizeof name_words[0], LONE = 3 };
+  const char *word[ROW_WORDS];
+} name_rows[] = {
+    {LAB_COLUMN_IGNORED,
+     {"ambient", "umgebung", "atmos", "baro", "differential", "delta", "deviation", "abweichung", "error", "fehler",
+      "status", "quality", "validity", "comment", "drive"}},
+    {LAB_CHANNEL_TIME, {"x value"}},
+    {LAB_CHANNEL_PS, {"supply", "zuluft", "versorgung", "speise"}},
+    {LAB_CHANNEL_T, {" temp"}},
+    {LAB_CHANNEL_FORCE, {"force", "kraft"}},
+    {LAB_CHANNEL_SP, {"setpoint", "set point", "set position", "target", "demand", "soll", "stellsignal", "sp"}},
+    {LAB_CHANNEL_U, {"command", "cmd", "solenoid", "befehl", "valve signal", "magnetventil", "u"}},
+    {LAB_CHANNEL_SP, {"consigne"}},
+    {LAB_CHANNEL_U, {"commande"}},
+    {LAB_CHANNEL_PS, {"alimentation"}},
+    {LAB_CHANNEL_X, {"course"}},
+    {LAB_CHANNEL_P, {"pression"}},
+    {LAB_CHANNEL_TIME, {"temps"}},
+    {LAB_CHANNEL_X,
+     {"travel", "position", "pos", "hub", "weg", "stellung", "istwert", " stem", "stroke", "displacement", "lvdt",
+      "feedback", "pv", "x"}},
+    {LAB_CHANNEL_P, {"pressure", "press", "druck", "p1", "p"}},
+    {LAB_CHANNEL_TIME, {"time", "zeit", "date", "datum", "elapsed", "second", "t"}}};
+enum { NAME_ROWS = sizeof name_rows / sizeof name_rows[0] };
 
 /* " word word ": small letters, what is neither letter nor digit as one blank, what is in brackets left out. */
 static void words_of(const char *text, char words[WORDS_TEXT])
@@ -211,6 +161,14 @@ static int has_word(const char *words, const char *word)
   char alone[32];
   snprintf(alone, sizeof alone, strlen(word) <= LONE ? " %s " : "%s", word);
   return strstr(words, alone) != NULL;
+}
+
+static int has_word_of(const char *words, const struct name_row *row)
+{
+  int i, any = 0;
+  for (i = 0; i < ROW_WORDS && row->word[i]; i++)
+    any |= has_word(words, row->word[i]);
+  return any;
 }
 
 /* Whether a channel can be what a column holds: dates are time, and a unit must fit. */
@@ -236,9 +194,9 @@ int lab_name_channel(const char *text, const char *below, int is_stamp, const la
   int i;
   words_of(text, words);
   *absolute = 0;
-  for (i = 0; i < NAME_WORDS; i++) {
-    const int channel = name_words[i].channel;
-    if (!has_word(words, name_words[i].word))
+  for (i = 0; i < NAME_ROWS; i++) {
+    const int channel = name_rows[i].channel;
+    if (!has_word_of(words, &name_rows[i]))
       continue;
     if (channel < 0)
       return LAB_COLUMN_IGNORED;
