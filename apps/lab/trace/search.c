@@ -9,6 +9,7 @@
 #include "../base/clock.h"
 #include "../fit/deviations.h"
 #include "../fit/outliers.h"
+#include "../rig/tolerance.h"
 #include "absent.h"
 #include "carry.h"
 #include "contest.h"
@@ -184,21 +185,38 @@ static int try_rivals(lab_finding *f, lab_error *error)
   return status;
 }
 
-/* Whether what was found can as well be nothing: its interval reaches the value that has no effect. */
+/* Whether what was found can as well be nothing: its interval reaches the value that has no effect, or it is an error
+ * that a sensor begins to have and that any sensor may have. */
 static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, const lab_found *found)
 {
-  const int j = found->effect >= 0 ? lab_unknowns_find(&c->u, found->param) : -1;
+  const int onset = lab_unknowns_find_onset(&c->u, found->param);
+  const int j = found->effect < 0 ? -1 : onset >= 0 ? onset : lab_unknowns_find(&c->u, found->param);
   const double nothing = j >= 0 ? (double)lab_param_info(found->param).neutral : 0;
-  return j >= 0 && fit->low[j] <= nothing && nothing <= fit->high[j];
+  const double ordinary = onset >= 0 && lab_param_is_of_sensor(found->param) ? lab_tolerance(&c->u.rig, found->param) : 0;
+  return j >= 0 &&
+         ((fit->low[j] <= nothing && nothing <= fit->high[j]) || fabs(c->u.unknown[j].value - nothing) < ordinary);
+}
+
+/* Whether a search that was ended has found what can as well be nothing: there was no time to see whether it is needed. */
+static int is_unproved(const lab_finding *f)
+{
+  int i, any = 0;
+  for (i = 0; i < f->best.n_found; i++)
+    any |= may_be_nothing(&f->best, &f->result.fit, &f->best.found[i]);
+  return any;
 }
 
 /* Take out one effect that can as well be nothing, if only noise is left without it: a switch that comes a row sooner
- * by accident lowers chi-square as much as a small effect does.
+ * by accident lowers chi-square as much as a small effect does. Where the time is spent, some of what is kept for the end
+ * goes to that.
  * In/out:  f  with its intervals */
 static int take_out_accident(lab_finding *f, int *any, lab_error *error)
 {
+  static const double kept = 0.15; /* of the search's time, by judgement */
+  const double until = f->best.u.until;
   lab_candidate *without = malloc(sizeof *without);
   int i, out = -1, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
+  f->best.u.until = (1 + kept) * until;
   for (i = f->best.n_found - 1; status == LAB_OK && out < 0 && i >= 0 && !lab_cpu_is_spent(f->best.u.until); i--)
     if (may_be_nothing(&f->best, &f->result.fit, &f->best.found[i])) {
       status = lab_candidate_leave_out(&f->best, i, without, error);
@@ -211,6 +229,7 @@ static int take_out_accident(lab_finding *f, int *any, lab_error *error)
     f->result.verdict = f->best.n_found > 0 ? f->result.verdict : LAB_VERDICT_NONE;
     lab_rounds_note_way(&f->result, &f->best);
   }
+  f->best.u.until = until;
   free(without);
   return status;
 }
@@ -239,7 +258,7 @@ static int conclude(lab_finding *f, lab_unknowns *u, lab_search_result *result, 
   memcpy(result->found, f->best.found, sizeof result->found);
   memcpy(result->begin, f->best.begin, sizeof result->begin);
   result->cut_short = lab_cpu_is_spent(u->until);
-  if (result->cut_short && lab_needs_the_whole_search(result->verdict))
+  if (result->cut_short && (lab_needs_the_whole_search(result->verdict) || is_unproved(f)))
     result->verdict = LAB_VERDICT_UNDECIDED;
   if (status == LAB_OK)
     status = lab_deviations_widen(u, &result->fit, error);
