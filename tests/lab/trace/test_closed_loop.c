@@ -23,6 +23,7 @@ static second_positioner k;
 static double t_set[CHANGES], set[CHANGES];
 static double leaks_since, leak_since; /* [s], [m2]: a leak that begins; 0: none */
 static double rises_by;                /* [N] friction then */
+static double softens_to;              /* times the spring rate then */
 static size_t n_set;
 
 static int fits_nothing; /* all is as the sheet says, to its tolerance */
@@ -64,6 +65,7 @@ static int begin(void **state)
   k = (second_positioner){.gain = 20, .dead_band = 0.002, .cutoff_low = 0.01, .cutoff_high = 0.99};
   fits_nothing = 0;
   leak_since = leaks_since = rises_by = 0;
+  softens_to = 1;
   set_stairs();
   return 0;
 }
@@ -94,6 +96,7 @@ static const char *write_log(int columns)
   int i;
   later.leak_area += leak_since;
   later.dry_friction += rises_by;
+  later.spring_rate *= softens_to;
   assert_non_null(file);
   assert_int_equal(second_samples(lasting, spacing), ROWS);
   assert_int_equal(second_follow(&g, &course, lasting, spacing, &log, NULL), 0);
@@ -443,6 +446,23 @@ CASE(test_lab_unknowns_sticks_and_slips__friction_that_falls_with_speed__moves_t
   g.stribeck = 1;
   g.stribeck_velocity = 2e-3;
   assert_int_equal(jerks(), 1);
+}
+
+/* ---- A value that changes within the log ---- */
+
+/* The positioner makes up for a spring that breaks: what the travel shows of it falls out of step with a wrong size. */
+CASE(test_lab_search_run__spring_that_breaks_behind_a_positioner__is_sized_and_dated_by_set_position_and_travel)
+{
+  const lab_rig_onset *begins = &u.rig.onset[0];
+  leaks_since = 21.5;
+  softens_to = 0.7;
+  close_loop(WITH_SP);
+  assert_int_equal(result.verdict, LAB_VERDICT_NONE);
+  assert_int_equal(u.rig.n_onsets, 1);
+  assert_string_equal(lab_param_info(begins->param).name, "spring_rate");
+  assert_close(begins->value / (double)u.rig.params.spring_rate, 0.7, 0, 0.03);
+  assert_between(21.5, result.begin[0].low, result.begin[0].high);
+  assert_between(result.begin[0].high - result.begin[0].low, 0, 4);
 }
 
 /* ---- Output of the positioner at every row ---- */

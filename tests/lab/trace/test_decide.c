@@ -156,8 +156,16 @@ TEST(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_
   assert_false(holds(LAB_PHASE_LED, LAB_DO_TAKE_ONSET, &f));
   f.extended = quality(230, 401);
   assert_true(holds(LAB_PHASE_LED, LAB_DO_TAKE_ONSET, &f));
-  f.best = quality(319, 500);
-  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
+  f.best = quality(319, 500); /* only noise: by odds, with values within their tolerances as well, and by no leader */
+  f.begins = 121;
+  f.extended = (lab_quality){0};
+  f.held = 1;
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
+  assert_false(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
+  f.onset = quality(220, 500 - lab_constant(LAB_ALIKE_BIC) + 1);
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_TAKE_ONSET, &f));
+  f.onset = quality(220, 500 - lab_constant(LAB_ALIKE_BIC) - 1);
+  assert_true(holds(LAB_PHASE_SCORED, LAB_DO_TAKE_ONSET, &f));
 }
 
 TEST(test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left)
