@@ -365,6 +365,8 @@ static void say_value(const lab_change *change, char text[LAB_SENTENCE_TEXT])
 /* "the chamber leaks: 0.0602 mm2, ... (chamber_leak, 3 times what it was)", "no longer: the chamber leaks: ..." */
 static void say_effect(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
 {
+  static const double comparable = 20; /* times: beyond, it was hardly there, by judgement */
+  const double ratio = change->then != 0 ? change->now / change->then : 0;
   const int is_gone = change->now == (double)lab_param_info(change->param).neutral;
   char sentence[LAB_EFFECT_SENTENCE], name[LAB_PARAM_NAME_TEXT];
   lab_rig rig;
@@ -374,8 +376,8 @@ static void say_effect(const lab_report *report, const lab_change *change, char 
   *sentence = (char)tolower((unsigned char)*sentence);
   ADD(text, "%s%.*s (%s", is_gone ? "no longer: " : "", (int)strlen(sentence) - 1, sentence,
       lab_change_name(change->param, name));
-  if (change->then != 0 && !is_gone)
-    ADD(text, ", %s times what it was", LAB_NUMBER(change->now / change->then, 3));
+  if (ratio > 1 / comparable && ratio < comparable)
+    ADD(text, ", %s times what it was", LAB_NUMBER(ratio, 3));
   ADD(text, ")");
 }
 
@@ -577,8 +579,9 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 /* "With the best candidates, laminar_leak, heat_transfer and a free term, the error falls ..." */
 static void add_undecided(char *text, const lab_search_result *r)
 {
+  static const double hardly = 0.95; /* times as much: what takes off less is no candidate, by judgement */
   const double before = lab_report_in_noise(&r->before), after = lab_report_in_noise(&r->after);
-  const int n = r->n_found;
+  const int n = after < hardly * before ? r->n_found : 0;
   int i;
   if (n == 0) {
     ADD(text, "The residual is %.2f times the noise%s.", after,

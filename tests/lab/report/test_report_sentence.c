@@ -184,6 +184,10 @@ TEST(test_lab_report_sentence__search_that_was_ended__claims_nothing)
   report.deviations.of[report.deviations.n++] = deviation("dry_friction", 1.997, 1);
   assert_contains(sentence_of(&report), "may be wrong. As far as the log tells, friction is 2 times its sheet.");
   report.deviations.n = 0;
+  result.n_found = 1; /* and takes hardly anything off */
+  result.before = result.after;
+  assert_contains(sentence_of(&report), "may be wrong. The residual is 1.00 times the noise.");
+  result.n_found = 0;
   result.after.chi2 = 2.3;
   assert_contains(sentence_of(&report), "Something is missing, and there was no time to find what. The residual is 1.52");
 }
@@ -359,6 +363,10 @@ TEST(test_lab_report_headline__since_the_baseline__is_told_in_the_same_words)
   assert_contains(text,
                   "baseline: the positioner dead band from 0.00500 to 0.00800 (1.60 times); the rate of the spring"
                   " from 400 N/mm to 300 N/mm (0.750 times). ");
+  changes.n = 1; /* of what was hardly there it is no multiple */
+  changes.change[0] = (lab_change){.param = pneu_param_find("vent_restriction"), .then = -0.003, .now = 0.3};
+  lab_report_headline(&report, text);
+  assert_contains(text, "the vent passes 30 % less than declared (vent_restriction). ");
 }
 
 /* What to look at on the rig stands beside effects that there are. */
