@@ -29,12 +29,19 @@ static int is_free_vent(const lab_rig *rig, const lab_unknown *x)
   return lab_param_is_vents_share(x->index) && !(lab_tolerance(rig, x->index) > 0);
 }
 
+/* Whether a parameter that begins to be another is a declared value, and no effect that begins. */
+static int is_value(int param)
+{
+  const int positioner = pneu_effect_find("positioner");
+  return lab_param_is_value(param) || (positioner >= 0 && pneu_effect_of(param) == positioner);
+}
+
 /* Whether unknown j is a declared value, and not a part of what was added; of two in a row the later one. */
 static int is_declared(const lab_rig *rig, const lab_unknowns *u, int j)
 {
   const lab_unknown *x = &u->unknown[j];
   if (x->kind == LAB_UNKNOWN_ONSET)
-    return lab_param_is_value(param_of(u, x));
+    return is_value(param_of(u, x));
   if (lab_unknowns_find_onset(u, x->index) >= 0)
     return 0;
   return x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS && lab_tolerance_name(x->index) &&

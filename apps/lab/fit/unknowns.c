@@ -73,9 +73,7 @@ double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x)
 
 int lab_param_is_value(int param)
 {
-  const int positioner = pneu_effect_find("positioner");
-  return param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA ||
-         (positioner >= 0 && pneu_effect_of(param) == positioner);
+  return param < PNEU_PARAM_BASE_COUNT || param == LAB_PARAM_ORIFICE_AREA;
 }
 
 /* So many tolerances about the declared value; no ends where there is none. */
@@ -128,8 +126,8 @@ void lab_unknowns_stay_near(lab_unknowns *u, double tolerances)
   lab_unknowns_take(u);
 }
 
-/* A stem without damping rings, which no valve does for long and which takes most of the time: it stays above a share of
- * what is declared, by judgement. */
+/* A stem without damping oscillates for long after each move, which no valve does, and takes a hundred times as long to
+ * simulate: damping stays above a share of what is declared, by judgement. */
 static void keep_damped(const lab_unknowns *u, lab_unknown *x)
 {
   static const double least = 0.02;

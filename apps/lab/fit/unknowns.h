@@ -99,7 +99,7 @@ int lab_unknown_differs(const lab_unknown *x);
 /* How far what is known of an unknown lets it vary: its spread, less where the model leaves more than noise. */
 double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x);
 
-/* Whether parameter `param` is a value of the rig or of its positioner, and no part of an effect. */
+/* Whether parameter `param` is a value of the rig, and no part of an effect. */
 int lab_param_is_value(int param);
 
 /* Whether parameter `param` is an error of a sensor, and no value of the rig. */

@@ -347,17 +347,22 @@ static int fit_on_rows(lab_logs *logs, lab_unknowns *declared, double chi2, lab_
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-/* Fit the declared model; once more where the logs show another noise or clock than is declared. */
-static int fit_declared(lab_logs *logs, lab_unknowns *declared, lab_error *error)
+/* Fit the declared model; once more where the logs show another noise or clock than is declared.
+ * In:      most  [s] of CPU for each of these fits; 0: any */
+static int fit_declared(lab_logs *logs, double most, lab_unknowns *declared, lab_error *error)
 {
   double chi2;
   int e, any;
   for (e = 0; e < logs->n; e++)
     if (lab_drift_open(&logs->run[e], error))
       return error->status;
-  if (lab_unknowns_fit(declared, LAB_ROUNDS_ALL, &chi2, error) || fit_on_rows(logs, declared, chi2, error) ||
-      lab_weigh_runs(declared, logs->run, &any, error))
+  declared->until = most > 0 ? lab_cpu_time() + most : 0;
+  if (lab_unknowns_fit(declared, LAB_ROUNDS_ALL, &chi2, error))
     return error->status;
+  declared->until = most > 0 ? lab_cpu_time() + most : 0;
+  if (fit_on_rows(logs, declared, chi2, error) || lab_weigh_runs(declared, logs->run, &any, error))
+    return error->status;
+  declared->until = most > 0 ? lab_cpu_time() + most : 0;
   lab_weights_say(logs->run, logs->n, &logs->limitations);
   return any ? lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
 }
@@ -372,19 +377,18 @@ static double until(const allowance *time, double fit)
   return time->budget > 0 ? time->start + for_search(time->budget, fit) : 0;
 }
 
-/* Fit the declared model to the logs, for a part of the time: where something begins, no values fit them all, and the way
- * there may lead to models that ring.  Out: fit_s  [s] of CPU that it took */
+/* Fit the declared model to the logs, for a part of the time: where something begins no values fit them all, and a fit may
+ * go through models that take long to simulate.  Out: fit_s  [s] of CPU that it took */
 static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *time, lab_completion *c, double *fit_s,
                   lab_error *error)
 {
-  static const double most = 0.15; /* by judgement */
+  static const double most = 0.15; /* of the time, by judgement */
   const double used = lab_cpu_time();
   int status;
   on_progress(q, "fitting the declared model");
   if (lab_unknowns_open(rig, c->logs.run, c->logs.n, &c->declared, error))
     return error->status;
-  c->declared.until = time->budget > 0 ? used + most * time->budget : 0;
-  status = fit_declared(&c->logs, &c->declared, error);
+  status = fit_declared(&c->logs, most * time->budget, &c->declared, error);
   *fit_s = lab_cpu_time() - used;
   return status;
 }

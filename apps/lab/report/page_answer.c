@@ -198,7 +198,8 @@ static void put_why(const lab_sources *t, cJSON *page)
   for (i = 0; i < r->n_listed; i++)
     lab_json_say(
         reasons,
-        "The effect %s shows, but too little to be worth adding: it would lower the error by less than --min-gain.",
+        "The effect %s shows, but too little to be worth adding: it would lower the error by less than --min-gain, or the "
+        "log can as well be without it.",
         name_of(r->listed[i]));
   if (r->has_small)
     lab_json_say(reasons,
@@ -353,6 +354,8 @@ static void say_undecided(const lab_sources *t, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   const lab_residual_stats *left = r->left[LAB_STAGE_AFTER];
+  const char *why = r->cut_short ? "There was no time to find which effect it is."
+                                 : "Which effect it is, the log does not tell.";
   double p = 1;
   int c;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
@@ -370,13 +373,10 @@ static void say_undecided(const lab_sources *t, cJSON *list)
                  "Something is missing: what the candidates leave is about as much as noise, and others may leave no "
                  "more. Which it is, the log does not tell.");
   else if (lab_residual_stats_coloured(left) > 0)
-    lab_json_say(
-        list, "Something is missing: the residual is not white, p-value %s. Which effect it is, the log does not tell.",
-        LAB_P_VALUE(p));
+    lab_json_say(list, "Something is missing: the residual is not white, p-value %s. %s", LAB_P_VALUE(p), why);
   else
-    lab_json_say(list,
-                 "Something is missing: the residual is %s times the noise. Which effect it is, the log does not tell.",
-                 LAB_NUMBER(lab_report_in_noise(&r->after), 3));
+    lab_json_say(list, "Something is missing: the residual is %s times the noise. %s",
+                 LAB_NUMBER(lab_report_in_noise(&r->after), 3), why);
 }
 
 static void put_sure(const lab_sources *t, cJSON *page)

@@ -234,15 +234,15 @@ static int has_found_nothing(const lab_facts *f)
 }
 
 const lab_rule lab_rules[] = {
-    {LAB_PHASE_SCORED, "Nothing was found, and the logs are one run.", something_may_begin,
+    {LAB_PHASE_SCORED, "Nothing was found, and the logs are one run, of which nothing begins yet.", something_may_begin,
      "Score what may begin within it.", LAB_DO_SCORE_ONSETS},
     {LAB_PHASE_SCORED,
      "Values as declared, or only noise is left: something that may begin scores above ONSET_CLEAR times all that acts "
      "throughout.",
      an_onset_stands_out, "Refit those that do, and find when they begin.", LAB_DO_FIT_CLEAR_ONSET},
     {LAB_PHASE_SCORED,
-     "The best of these has a lower BIC, by ALIKE_BIC where only noise was left, and leaves only noise, or less than "
-     "ONSET_CONVINCING of the excess.",
+     "The best of these has a lower BIC, by ALIKE_BIC at least where only noise was left, and leaves only noise, or "
+     "less than ONSET_CONVINCING of the excess.",
      an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
     {LAB_PHASE_SCORED,
      "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, "

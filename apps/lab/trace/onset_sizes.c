@@ -2,13 +2,12 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "../base/clock.h"
 #include "../base/quantile.h"
 
 /* By judgement: a declared value falls or grows to these shares of itself, an effect has these shares of its usual size;
- * the best LEADERS are tried from PLACES rows on. */
+ * the best LEADERS are tried at PLACES rows. */
 enum { LEADERS = 6, PLACES = 6, SIZES_MAX = 10 };
 static const double of_value[] = {0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.2, 3.3};
 static const double of_effect[SIZES_MAX] = {-4, -2, -1, -0.5, -0.25, 0.25, 0.5, 1, 2, 4};
@@ -32,14 +31,19 @@ static int list_values(const lab_rig *rig, const lab_score *score, double value[
 /* Chi-square where a parameter has a value from some time [s] on; infinite where that cannot be simulated. */
 static int try_value(const lab_candidate *frozen, int param, double from, double value, double *chi2, lab_error *error)
 {
-  lab_unknowns u = frozen->u;
-  int status = lab_unknowns_add_onset(&u, param, from, value, error);
+  lab_unknowns *u = malloc(sizeof *u);
+  int status = u ? LAB_OK : lab_fail_memory(error, "a model");
   if (status == LAB_OK) {
-    lab_unknowns_take(&u);
-    status = lab_unknowns_chi2(&u, chi2, error);
+    *u = frozen->u;
+    status = lab_unknowns_add_onset(u, param, from, value, error);
+  }
+  if (status == LAB_OK) {
+    lab_unknowns_take(u);
+    status = lab_unknowns_chi2(u, chi2, error);
   }
   if (status != LAB_OK)
     *chi2 = HUGE_VAL;
+  free(u);
   return status == LAB_WORLD ? status : LAB_OK;
 }
 

@@ -29,17 +29,22 @@ int lab_preview_is_asked(const lab_unknowns *u)
 static int fit_first(lab_unknowns *first, lab_error *error)
 {
   lab_unknowns *afresh = malloc(sizeof *afresh);
-  double bent, chi2 = 0;
-  int status = afresh ? lab_unknowns_fit(first, LAB_ROUNDS_ALL, &bent, error) : lab_fail_memory(error, "the search");
-  if (status == LAB_OK && bent > lab_constant(LAB_NOISE_DOUBTFUL) * (double)first->n_values) {
+  double bent, chi2;
+  int status = afresh ? LAB_OK : lab_fail_memory(error, "the search");
+  if (status == LAB_OK)
+    status = lab_unknowns_fit(first, LAB_ROUNDS_ALL, &bent, error);
+  if (status == LAB_NUMERIC || (status == LAB_OK && bent > lab_constant(LAB_NOISE_DOUBTFUL) * (double)first->n_values)) {
+    const int fails = status == LAB_NUMERIC;
     *afresh = *first;
     lab_unknowns_undo_fit(afresh);
     status = lab_unknowns_fit(afresh, LAB_ROUNDS_ALL, &chi2, error);
-    if (status == LAB_OK && chi2 < bent)
+    if (status == LAB_OK && (fails || chi2 < bent))
       *first = *afresh;
+    else if (status == LAB_NUMERIC && !fails)
+      status = LAB_OK;
   }
   free(afresh);
-  return status == LAB_NUMERIC ? LAB_OK : status;
+  return status;
 }
 
 /* The search of the first n rows.

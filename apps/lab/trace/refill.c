@@ -267,11 +267,9 @@ int lab_refill_score(const lab_candidate *base, size_t row, lab_onset_scores *be
   const lab_run *x = base->u.run;
   trial t[SIZES];
   lab_score first;
-  double none = 0;
+  const double none = base->quality.chi2;
   int i = place_of(begins, pneu_param_find("leak_area")), status = LAB_OK;
-  if (i < begins->n)
-    status = lab_unknowns_chi2(&base->u, &none, error);
-  if (status == LAB_OK && i < begins->n) {
+  if (i < begins->n) {
     status = try_sizes(&base->u, x->log->value[LAB_CHANNEL_TIME][x->first + row], t, error);
     i = status == LAB_OK ? place_of(begins, t[0].leak) : i;
   }

@@ -28,7 +28,7 @@ int lab_refill_search(const lab_unknowns *u, const lab_search_options *options, 
 int lab_refill_fit(lab_candidate *c, lab_error *error);
 
 /* Score a leak that begins at a row by the size that comes nearest, if that is more than any other score.
- * In:      base    without a leak, with what has been until then, not fitted to the rest
+ * In:      base    without a leak, with what has been until then, not fitted to the rest; quality: chi2 of all of it
  * In/out:  begins  scores of what may begin
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_refill_score(const lab_candidate *base, size_t row, lab_onset_scores *begins, lab_error *error);

@@ -233,7 +233,7 @@ int lab_refit_instead(const lab_candidate *c, const lab_onset_scores *scores, do
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < most; i++) {
     other[i].quality.fitted = 0;
-    if (i < scores->n && scores->of[i].param != now.param)
+    if (i < scores->n && scores->of[i].statistic > 0 && scores->of[i].param != now.param)
       begin_onset(base, &scores->of[i], now.from, lab_count(LAB_BRIEF_STEPS), &other[i], error);
   }
   reach = lab_constant(LAB_RIVAL) * fmin(lab_least_chi2(other, most), c->quality.chi2);

@@ -13,6 +13,7 @@ typedef struct lab_finding {
   const lab_unknowns *exact; /* the declared model with nothing held, fitted; NULL: there is none */
   lab_candidate *held;       /* room for it within its tolerances (lab_contest_hold); NULL: of a part of a run */
   double held_s;             /* [s] of CPU that its fit took */
+  double start;              /* [s] of CPU time at which the search began */
   double gain;               /* of chi-square, by tolerances after the search */
   lab_onset_scores begins;   /* what may begin */
   size_t sound;              /* rows of a run of which `best` is known to leave only noise; 0: of all, or of none */

@@ -145,6 +145,7 @@ static void give_up(lab_finding *f, const lab_unknowns *declared)
 {
   f->best.u = *declared;
   f->best.n_found = 0;
+  f->best.quality = (lab_quality){0};
   f->result.n_path = 1;
   f->result.verdict = LAB_VERDICT_UNDECIDED;
 }
@@ -185,13 +186,15 @@ static int try_rivals(lab_finding *f, lab_error *error)
   return status;
 }
 
-/* Whether what was found can as well be nothing: its interval reaches the value that has no effect, or it is an error
- * that a sensor begins to have and that any sensor may have. */
+/* Whether what was found can as well be nothing: its interval reaches the value that has no effect, of what begins
+ * that before, or a sensor begins to have an error that any sensor may have. */
 static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, const lab_found *found)
 {
   const int onset = lab_unknowns_find_onset(&c->u, found->param);
   const int j = found->effect < 0 ? -1 : onset >= 0 ? onset : lab_unknowns_find(&c->u, found->param);
-  const double nothing = j >= 0 ? (double)lab_param_info(found->param).neutral : 0;
+  const double nothing = onset >= 0 ? lab_param_value(&c->u.rig, found->param)
+                         : j >= 0   ? (double)lab_param_info(found->param).neutral
+                                    : 0;
   const double ordinary = onset >= 0 && lab_param_is_of_sensor(found->param) ? lab_tolerance(&c->u.rig, found->param) : 0;
   return j >= 0 &&
          ((fit->low[j] <= nothing && nothing <= fit->high[j]) || fabs(c->u.unknown[j].value - nothing) < ordinary);
@@ -216,7 +219,7 @@ static int take_out_accident(lab_finding *f, int *any, lab_error *error)
   const double until = f->best.u.until;
   lab_candidate *without = malloc(sizeof *without);
   int i, out = -1, status = without ? LAB_OK : lab_fail_memory(error, "a candidate");
-  f->best.u.until = (1 + kept) * until;
+  f->best.u.until = until > 0 ? until + kept * (until - f->start) : 0;
   for (i = f->best.n_found - 1; status == LAB_OK && out < 0 && i >= 0 && !lab_cpu_is_spent(f->best.u.until); i--)
     if (may_be_nothing(&f->best, &f->result.fit, &f->best.found[i])) {
       status = lab_candidate_leave_out(&f->best, i, without, error);
@@ -299,6 +302,7 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
   if (status == LAB_OK) {
     *declared = *u;
     f->held = held;
+    f->start = lab_cpu_time();
     status = lab_search_measure(u, LAB_STAGE_BEFORE, &f->result, error);
   }
   if (status == LAB_OK && lab_preview_is_asked(u))
@@ -319,9 +323,9 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
     give_up(f, declared);
     status = conclude(f, u, result, error);
   }
-  if (f)
-    result->sound_until =
-        result->verdict == LAB_VERDICT_UNDECIDED && !result->is_far && !lab_is_noise(&f->best.quality) ? sound_until : 0;
+  if (f && (result->verdict != LAB_VERDICT_UNDECIDED || result->is_far || lab_is_noise(&f->best.quality)))
+    sound_until = 0;
+  result->sound_until = sound_until;
   free(held);
   free(declared);
   free(f);

@@ -62,7 +62,7 @@ typedef struct lab_search_result {
   size_t window; /* rows of a window if the log is rough and was seen coarsely (windowed.h); else 0 */
   double level;  /* p-value that a single score has to pass */
   double sound_until; /* [s] by the log: up to there the declared model leaves only noise, where the verdict is
-                         undecided for what comes then; 0: not known */
+                         undecided for what comes then, of which more than noise is left; 0: not known */
   int jerks;     /* not 0: the verdict is undecided, and the stem moves by jerks where the model's does not */
   int is_far;    /* not 0: the verdict is undecided only for the values that the model needs (lab_candidate_is_far) */
 } lab_search_result;

@@ -563,6 +563,15 @@ TEST(test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them)
   assert_close(u.unknown[USUAL + 1].value, 0, 0, 0);
 }
 
+/* A stem that hardly loses any energy takes long to simulate, and there is none. */
+TEST(test_lab_unknowns_add__damping__stays_above_a_fiftieth_of_what_is_declared)
+{
+  open_usual();
+  assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_damping, 0, &error), LAB_OK);
+  assert_close(u.unknown[u.n - 1].value, 0.02 * (double)rig.params.damping, 0, 1e-9);
+  close_all();
+}
+
 TEST(test_lab_unknowns_add__no_room__is_refused)
 {
   int j;
