@@ -206,13 +206,11 @@ static void put_why(const lab_sources *t, cJSON *page)
                  "A free term that acts like %s (%s) shows, but too little to be worth adding: it would lower "
                  "the error by less than --min-gain.",
                  lab_free_term_what(&r->small), lab_free_term_where(&r->small, where));
-  if (lab_report_is_unfinished(r))
-    lab_json_say(reasons, "The search was ended by --budget before everything was tried.");
-  else if (r->is_far)
+  if (r->is_far)
     lab_json_say(reasons, "The residual is about as large as noise, but only with several values far off their sheet.");
   else if (lab_report_is_ambiguous(r))
     lab_json_say(reasons, "What is left is about as large as noise, and other candidates may leave no more.");
-  else if (r->verdict == LAB_VERDICT_UNDECIDED)
+  else if (r->verdict == LAB_VERDICT_UNDECIDED && !lab_report_is_unfinished(r))
     lab_json_say(reasons, "The residual is not noise, and nothing that was tried explains it. The figures below show "
                           "when and where it arises.");
 }
