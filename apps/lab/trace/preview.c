@@ -1,5 +1,6 @@
 #include "preview.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "../base/clock.h"
@@ -29,19 +30,18 @@ int lab_preview_is_asked(const lab_unknowns *u)
 static int fit_first(lab_unknowns *first, lab_error *error)
 {
   lab_unknowns *afresh = malloc(sizeof *afresh);
-  double bent, chi2;
-  int status = afresh ? LAB_OK : lab_fail_memory(error, "the search");
+  double bent = HUGE_VAL, chi2 = HUGE_VAL;
+  int again, status = afresh ? LAB_OK : lab_fail_memory(error, "the search");
   if (status == LAB_OK)
     status = lab_unknowns_fit(first, LAB_ROUNDS_ALL, &bent, error);
-  if (status == LAB_NUMERIC || (status == LAB_OK && bent > lab_constant(LAB_NOISE_DOUBTFUL) * (double)first->n_values)) {
-    const int fails = status == LAB_NUMERIC;
+  bent = status == LAB_OK ? bent : HUGE_VAL;
+  if (status != LAB_WORLD && bent > lab_constant(LAB_NOISE_DOUBTFUL) * (double)first->n_values) {
     *afresh = *first;
     lab_unknowns_undo_fit(afresh);
-    status = lab_unknowns_fit(afresh, LAB_ROUNDS_ALL, &chi2, error);
-    if (status == LAB_OK && (fails || chi2 < bent))
+    again = lab_unknowns_fit(afresh, LAB_ROUNDS_ALL, &chi2, error);
+    if (again == LAB_OK && chi2 < bent)
       *first = *afresh;
-    else if (status == LAB_NUMERIC && !fails)
-      status = LAB_OK;
+    status = again == LAB_NUMERIC ? status : again;
   }
   free(afresh);
   return status;
