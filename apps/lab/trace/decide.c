@@ -119,10 +119,16 @@ static int no_leader_is_enough(const lab_facts *f)
          f->begins > lab_constant(LAB_ONSET_SHARE) * f->throughout;
 }
 
+/* Where only noise is left, by odds, and if it takes something off that. */
+static int an_onset_is_worth_it(const lab_facts *f)
+{
+  return !lab_is_noise(&f->best) || (f->onset.bic + lab_constant(LAB_ALIKE_BIC) < f->best.bic &&
+                                     f->onset.chi2 < pow(1 - lab_constant(LAB_MIN_GAIN), 2) * f->best.chi2);
+}
+
 static int an_onset_convinces(const lab_facts *f)
 {
-  const double odds = lab_is_noise(&f->best) ? lab_constant(LAB_ALIKE_BIC) : 0;
-  return f->can_begin && f->onset.bic + odds < f->best.bic && lab_onset_convinces(&f->onset, &f->best) &&
+  return f->can_begin && an_onset_is_worth_it(f) && lab_onset_convinces(&f->onset, &f->best) &&
          (!f->extended.fitted || lab_onset_convinces(&f->onset, &f->extended));
 }
 
@@ -241,8 +247,8 @@ const lab_rule lab_rules[] = {
      "throughout.",
      an_onset_stands_out, "Refit those that do, and find when they begin.", LAB_DO_FIT_CLEAR_ONSET},
     {LAB_PHASE_SCORED,
-     "The best of these has a lower BIC, by ALIKE_BIC at least where only noise was left, and leaves only noise, or "
-     "less than ONSET_CONVINCING of the excess.",
+     "The best of these has a lower BIC, and leaves only noise, or less than ONSET_CONVINCING of the excess; where only "
+     "noise was left, by ALIKE_BIC, and an error that is lower by MIN_GAIN.",
      an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
     {LAB_PHASE_SCORED,
      "The declared model leaves more than noise, of which tolerances alone do not explain MUCH, "

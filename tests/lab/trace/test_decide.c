@@ -166,6 +166,8 @@ TEST(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_TAKE_ONSET, &f));
   f.onset = quality(220, 500 - lab_constant(LAB_ALIKE_BIC) - 1);
   assert_true(holds(LAB_PHASE_SCORED, LAB_DO_TAKE_ONSET, &f));
+  f.onset.chi2 = pow(1 - lab_constant(LAB_MIN_GAIN), 2) * f.best.chi2 + 1; /* takes nothing off that anybody sees */
+  assert_false(holds(LAB_PHASE_SCORED, LAB_DO_TAKE_ONSET, &f));
 }
 
 TEST(test_rules__what_begins_beside_values_as_declared__ends_where_more_than_noise_is_left)
