@@ -274,11 +274,11 @@ static void remark_moved(lab_answer *a)
 }
 
 /* How far off its sheet a value may be to be told, in tolerances: beside something that is missing it is bent to make
- * up for that, and beside much that is missing, or what begins, none is told. */
+ * up for that, and beside much that is missing, or what begins and leaves more than may be noise, none is told. */
 static double trusted(const lab_search_result *r)
 {
   const double left = lab_report_in_noise(&r->after);
-  if (r->sound_until > 0)
+  if (r->sound_until > 0 && left * left > lab_constant(LAB_NOISE_DOUBTFUL))
     return 0;
   return r->verdict != LAB_VERDICT_UNDECIDED       ? (double)INFINITY
          : left < lab_constant(LAB_VALUES_TRUSTED) ? lab_constant(LAB_FAR_OFF)
