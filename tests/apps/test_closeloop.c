@@ -24,8 +24,8 @@ static int run(const char *rig, const char *log, char **text)
 {
   char command[2048];
   int status;
-  snprintf(command, sizeof command, PROGRAMS "/closeloop '%s' '%s' --budget 600 --out '%s/out' >'%s/said.txt' 2>&1", rig,
-           log, scratch_folder, scratch_folder);
+  snprintf(command, sizeof command, PROGRAMS "/closeloop '%s' '%s' --budget 600 --out '%s/out' >'%s/said.txt' 2>&1",
+           rig, log, scratch_folder, scratch_folder);
   scratch_remove(scratch_path("out"));
   status = system(command);
   assert_true(WIFEXITED(status));

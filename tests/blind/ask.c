@@ -221,7 +221,8 @@ static void failed(const char *folder, int in_time, blind_answer *a)
 int blind_ask(const char *program, const char *folder, int seconds, blind_answer *answer, lab_error *error)
 {
   char path[PATHS];
-  const double ticks = 0.5; /* [s] by which times of a process may be short of what its limit counts, on a busy machine */
+  const double ticks =
+      0.5; /* [s] by which times of a process may be short of what its limit counts, on a busy machine */
   double cpu = 0;
   int status;
   if (run(program, folder, seconds, &status, &cpu, error))

@@ -127,8 +127,9 @@ int lab_unknown_is_known(const lab_unknown *x);
 /* Whether an unknown is held. One that was added is not. */
 int lab_unknown_is_held(const lab_unknown *x);
 
-/* Take up a parameter that all experiments share, starting from `value`; one that is held is let go.  Returns: LAB_OK;
- * LAB_DATA if there is no room. */
+/* Take up a parameter that all experiments share, starting from `value`; one that is held is let go.
+ * Damping stays above 2 % of what is declared.
+ * Returns: LAB_OK; LAB_DATA if there is no room. */
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error);
 
 /* Take up a free term, whose values in `term` are the start; over a cycle, with its period.

@@ -347,6 +347,12 @@ static int fit_on_rows(lab_logs *logs, lab_unknowns *declared, double chi2, lab_
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
+/* When so many seconds of CPU from now are used [s]; 0: never.  In: seconds  0: any */
+static double after(double seconds)
+{
+  return seconds > 0 ? lab_cpu_time() + seconds : 0;
+}
+
 /* Fit the declared model; once more where the logs show another noise or clock than is declared.
  * In:      most  [s] of CPU for each of these fits; 0: any */
 static int fit_declared(lab_logs *logs, double most, lab_unknowns *declared, lab_error *error)
@@ -356,13 +362,13 @@ static int fit_declared(lab_logs *logs, double most, lab_unknowns *declared, lab
   for (e = 0; e < logs->n; e++)
     if (lab_drift_open(&logs->run[e], error))
       return error->status;
-  declared->until = most > 0 ? lab_cpu_time() + most : 0;
+  declared->until = after(most);
   if (lab_unknowns_fit(declared, LAB_ROUNDS_ALL, &chi2, error))
     return error->status;
-  declared->until = most > 0 ? lab_cpu_time() + most : 0;
+  declared->until = after(most);
   if (fit_on_rows(logs, declared, chi2, error) || lab_weigh_runs(declared, logs->run, &any, error))
     return error->status;
-  declared->until = most > 0 ? lab_cpu_time() + most : 0;
+  declared->until = after(most);
   lab_weights_say(logs->run, logs->n, &logs->limitations);
   return any ? lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
 }
@@ -377,8 +383,8 @@ static double until(const allowance *time, double fit)
   return time->budget > 0 ? time->start + for_search(time->budget, fit) : 0;
 }
 
-/* Fit the declared model to the logs, for a part of the time: where something begins no values fit them all, and a fit may
- * go through models that take long to simulate.  Out: fit_s  [s] of CPU that it took */
+/* Fit the declared model to the logs, for a part of the time: where something begins no values fit them all, and a fit
+ * may go through models that take long to simulate.  Out: fit_s  [s] of CPU that it took */
 static int fit_to(const lab_request *q, const lab_rig *rig, const allowance *time, lab_completion *c, double *fit_s,
                   lab_error *error)
 {

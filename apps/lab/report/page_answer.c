@@ -196,11 +196,11 @@ static void put_why(const lab_sources *t, cJSON *page)
                  name_of(r->scores.of[0].effect), LAB_NUMBER(r->scores.of[0].statistic, 3),
                  LAB_NUMBER(lab_chi2_threshold(r->level), 3));
   for (i = 0; i < r->n_listed; i++)
-    lab_json_say(
-        reasons,
-        "The effect %s shows, but too little to be worth adding: it would lower the error by less than --min-gain, or the "
-        "log can as well be without it.",
-        name_of(r->listed[i]));
+    lab_json_say(reasons,
+                 "The effect %s shows, but too little to be worth adding: it would lower the error by less than "
+                 "--min-gain, or the "
+                 "log can as well be without it.",
+                 name_of(r->listed[i]));
   if (r->has_small)
     lab_json_say(reasons,
                  "A free term that acts like %s (%s) shows, but too little to be worth adding: it would lower "
@@ -352,8 +352,8 @@ static void say_undecided(const lab_sources *t, cJSON *list)
 {
   const lab_search_result *r = t->report->result;
   const lab_residual_stats *left = r->left[LAB_STAGE_AFTER];
-  const char *why = r->cut_short ? "There was no time to find which effect it is."
-                                 : "Which effect it is, the log does not tell.";
+  const char *why =
+      r->cut_short ? "There was no time to find which effect it is." : "Which effect it is, the log does not tell.";
   double p = 1;
   int c;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)

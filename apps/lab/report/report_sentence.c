@@ -539,8 +539,9 @@ static void add_undecided_cause(char *text, const lab_search_result *r)
     ADD(text, "Until %s s nothing is missing; then something is, %s.",
         LAB_NUMBER(r->sound_until, (int)fmax(4, 2 + floor(log10(r->sound_until)))), why);
   else if (r->jerks)
-    ADD(text, "The stem moves by jerks and the model's does not: something is missing, perhaps friction that sticks or a "
-              "force that shakes it.");
+    ADD(text,
+        "The stem moves by jerks and the model's does not: something is missing, perhaps friction that sticks or a "
+        "force that shakes it.");
   else if (r->is_far)
     ADD(text, "Several values are far off their sheet: it is that of another rig, or something else is missing.");
   else

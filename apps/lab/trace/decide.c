@@ -247,7 +247,8 @@ const lab_rule lab_rules[] = {
      "throughout.",
      an_onset_stands_out, "Refit those that do, and find when they begin.", LAB_DO_FIT_CLEAR_ONSET},
     {LAB_PHASE_SCORED,
-     "The best of these has a lower BIC, and leaves only noise, or less than ONSET_CONVINCING of the excess; where only "
+     "The best of these has a lower BIC, and leaves only noise, or less than ONSET_CONVINCING of the excess; where "
+     "only "
      "noise was left, by ALIKE_BIC, and an error that is lower by MIN_GAIN.",
      an_onset_convinces, "Take it in place of the declared model, and score again.", LAB_DO_TAKE_ONSET},
     {LAB_PHASE_SCORED,

@@ -61,12 +61,6 @@ static size_t earliest(const lab_run *x, size_t sound)
   return sound > late ? sound - late : 0;
 }
 
-static int refit_scored(const lab_candidate *frozen, double alpha, const lab_onset_scores *begins, lab_candidate *c,
-                        int *n, lab_error *error)
-{
-  return lab_refit_onsets_at(frozen, begins, alpha / (begins->tests > 0 ? begins->tests : 1), c, n, error);
-}
-
 /* What may begin between two rows, by score, while all else is as the beginning has it.
  * In:      frozen
  *          row     at which it is fitted first
@@ -83,7 +77,8 @@ static int refit_frozen(const lab_candidate *frozen, const size_t between[2], si
   lab_projection_close(&p);
   for (i = 0; i < begins->n && status == LAB_OK; i++)
     begins->of[i].onset = row;
-  return status == LAB_OK ? refit_scored(frozen, alpha, begins, c, n, error) : status;
+  return status == LAB_OK ? lab_refit_onsets_at(frozen, begins, lab_onset_scores_level(begins, alpha), c, n, error)
+                          : status;
 }
 
 /* Whether a frozen model with what begins comes near enough to be fitted with all values, or takes off most of what is
@@ -174,7 +169,7 @@ static int refit_loop(lab_candidate *frozen, const size_t between[2], size_t row
     if (status == LAB_OK && lab_refill_is_asked(&frozen->u))
       status = lab_refill_score(frozen, between[0], begins, error);
     if (status == LAB_OK)
-      status = refit_scored(frozen, alpha, begins, c, n, error);
+      status = lab_refit_onsets_at(frozen, begins, lab_onset_scores_level(begins, alpha), c, n, error);
     lab_refit_put_simplest_first(c, *n);
   }
   lab_beginning_close(&part);

@@ -316,6 +316,11 @@ static int score_all(const scan *s, lab_onset_scores *all, lab_error *error)
   return status;
 }
 
+double lab_onset_scores_level(const lab_onset_scores *all, double alpha)
+{
+  return alpha / (all->tests > 0 ? all->tests : 1);
+}
+
 void lab_onset_scores_list(const lab_unknowns *u, lab_onset_scores *all)
 {
   memset(all, 0, sizeof *all);

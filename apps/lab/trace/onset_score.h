@@ -21,6 +21,9 @@ typedef struct lab_onset_scores {
   double throughout;                  /* largest statistic of those that act from the first row on */
 } lab_onset_scores;
 
+/* The p-value that one of them has to pass, where `alpha` is the chance of naming any when nothing begins. */
+double lab_onset_scores_level(const lab_onset_scores *scores, double alpha);
+
 /* List all that may begin in a model, not scored. */
 void lab_onset_scores_list(const lab_unknowns *u, lab_onset_scores *scores);
 

@@ -6,8 +6,8 @@
 #include "../base/clock.h"
 #include "../base/quantile.h"
 
-/* By judgement: a declared value falls or grows to these shares of itself, an effect has these shares of its usual size;
- * the best LEADERS are tried at PLACES rows. */
+/* By judgement: a declared value falls or grows to these shares of itself, an effect has these shares of its usual
+ * size; the best LEADERS are tried at PLACES rows. */
 enum { LEADERS = 6, PLACES = 6, SIZES_MAX = 10 };
 static const double of_value[] = {0.3, 0.5, 0.7, 0.85, 1.2, 1.5, 2.2, 3.3};
 static const double of_effect[SIZES_MAX] = {-4, -2, -1, -0.5, -0.25, 0.25, 0.5, 1, 2, 4};
@@ -28,14 +28,14 @@ static int list_values(const lab_rig *rig, const lab_score *score, double value[
   return n;
 }
 
-/* Chi-square where a parameter has a value from some time [s] on; infinite where that cannot be simulated. */
-static int try_value(const lab_candidate *frozen, int param, double from, double value, double *chi2, lab_error *error)
+int lab_onset_try(const lab_unknowns *model, int param, double from, double value, double *chi2, lab_error *error)
 {
   lab_unknowns *u = malloc(sizeof *u);
   int status = u ? LAB_OK : lab_fail_memory(error, "a model");
   if (status == LAB_OK) {
-    *u = frozen->u;
-    status = lab_unknowns_add_onset(u, param, from, value, error);
+    *u = *model;
+    status = isfinite(from) ? lab_unknowns_add_onset(u, param, from, value, error)
+                            : lab_unknowns_add(u, param, value, error);
   }
   if (status == LAB_OK) {
     lab_unknowns_take(u);
@@ -58,7 +58,8 @@ static int try_sizes(const lab_candidate *frozen, size_t row, lab_score *score, 
   int k;
   for (k = 0; k < n && !lab_cpu_is_spent(frozen->u.until); k++) {
     double chi2;
-    if (try_value(frozen, score->param, x->log->value[LAB_CHANNEL_TIME][x->first + row], value[k], &chi2, &error))
+    if (lab_onset_try(&frozen->u, score->param, x->log->value[LAB_CHANNEL_TIME][x->first + row], value[k], &chi2,
+                      &error))
       break;
     if (!(frozen->quality.chi2 - chi2 > score->statistic))
       continue;

@@ -10,6 +10,13 @@
 #include "candidate.h"
 #include "onset_score.h"
 
+/* Simulate a model in which a parameter has another value.
+ * In:      from   [s] of the log from when on it has; infinite: from the first row
+ *          value  in its unit; of orifice_area a factor
+ * Out:     chi2   infinite where that cannot be simulated
+ * Returns: LAB_OK, LAB_WORLD. */
+int lab_onset_try(const lab_unknowns *model, int param, double from, double value, double *chi2, lab_error *error);
+
 /* Score all that may begin, by what the best size of each takes off chi-square.
  * In:      earliest, latest  rows of the only run between which it begins
  * In/out:  frozen            with the values of the rows before, no unknowns; quality: of these, where nothing begins

@@ -8,6 +8,7 @@
 #include "../base/quantile.h"
 #include "contest.h"
 #include "forces.h"
+#include "onset_sizes.h"
 #include "resume.h"
 #include "standing.h"
 
@@ -48,24 +49,6 @@ static int add_leak(lab_candidate *c, const trial *t, lab_error *error)
 static int is_off(const lab_quality *within)
 {
   return within->fitted && (lab_is_plainly_off(within) || lab_is_strained(within));
-}
-
-/* Chi-square of a model with a leak from some time [s] on.
- * In:      since  infinite: from the start
- * In/out:  t      chi2: infinite where the model cannot be simulated
- * Returns: LAB_OK, LAB_WORLD */
-static int try_leak(const lab_unknowns *model, double since, trial *t, lab_error *error)
-{
-  lab_unknowns u = *model;
-  int status = isfinite(since) ? lab_unknowns_add_onset(&u, t->leak, since, t->size, error)
-                               : lab_unknowns_add(&u, t->leak, t->size, error);
-  if (status == LAB_OK) {
-    lab_unknowns_take(&u);
-    status = lab_unknowns_chi2(&u, &t->chi2, error);
-  }
-  if (status != LAB_OK)
-    t->chi2 = HUGE_VAL;
-  return status == LAB_WORLD ? status : LAB_OK;
 }
 
 /* The leak that the log shows while the pressure falls though the positioner would not vent, of the kind that is most
@@ -110,7 +93,7 @@ static int try_sizes(const lab_unknowns *model, double since, trial *t, lab_erro
   for (k = 0; k < SIZES && status == LAB_OK; k++) {
     t[k] = (trial){seen > 0 && k < CLOSE ? shows : hole, size_of(model, seen, k), HUGE_VAL};
     if (!lab_cpu_is_spent(model->until))
-      status = try_leak(model, since, &t[k], error);
+      status = lab_onset_try(model, t[k].leak, since, t[k].size, &t[k].chi2, error);
   }
   if (status == LAB_OK)
     qsort(t, SIZES, sizeof *t, by_chi2);

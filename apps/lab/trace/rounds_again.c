@@ -49,18 +49,12 @@ int lab_rounds_exchange(lab_rounds *s, lab_error *error)
 
 /* ---- What begins within the run ---- */
 
-/* The p-value that a score of what begins has to pass. */
-static double onset_level(const lab_rounds *s)
-{
-  return s->options->alpha / (s->begins.tests > 0 ? s->begins.tests : 1);
-}
-
 int lab_rounds_fit_onset(lab_rounds *s, enum lab_constant share, lab_error *error)
 {
   const lab_onset_scores *all = &s->begins;
   const double bar = lab_constant(share) * fmax(all->throughout, s->best_effect);
   lab_rounds_progress(s, "looking for what begins within the log");
-  return lab_refit_onset(&s->beam[0], all, onset_level(s), bar, &s->onset, error);
+  return lab_refit_onset(&s->beam[0], all, lab_onset_scores_level(all, s->options->alpha), bar, &s->onset, error);
 }
 
 void lab_rounds_take_onset(lab_rounds *s)
@@ -75,7 +69,8 @@ void lab_rounds_take_onset(lab_rounds *s)
 int lab_rounds_try_instead(lab_rounds *s, lab_error *error)
 {
   lab_candidate *best = &s->beam[0];
-  int i, n, status = lab_refit_instead(best, &s->begins, onset_level(s), s->pool, &s->n_pool, error);
+  const double level = lab_onset_scores_level(&s->begins, s->options->alpha);
+  int i, n, status = lab_refit_instead(best, &s->begins, level, s->pool, &s->n_pool, error);
   if (status != LAB_OK)
     return status;
   lab_rounds_rank(s);

@@ -195,12 +195,14 @@ static int may_be_nothing(const lab_candidate *c, const lab_fit_result *fit, con
   const double nothing = onset >= 0 ? lab_param_value(&c->u.rig, found->param)
                          : j >= 0   ? (double)lab_param_info(found->param).neutral
                                     : 0;
-  const double ordinary = onset >= 0 && lab_param_is_of_sensor(found->param) ? lab_tolerance(&c->u.rig, found->param) : 0;
+  const double ordinary =
+      onset >= 0 && lab_param_is_of_sensor(found->param) ? lab_tolerance(&c->u.rig, found->param) : 0;
   return j >= 0 &&
          ((fit->low[j] <= nothing && nothing <= fit->high[j]) || fabs(c->u.unknown[j].value - nothing) < ordinary);
 }
 
-/* Whether a search that was ended has found what can as well be nothing: there was no time to see whether it is needed. */
+/* Whether a search that was ended has found what can as well be nothing: there was no time to see whether it is needed.
+ */
 static int is_unproved(const lab_finding *f)
 {
   int i, any = 0;
@@ -210,9 +212,8 @@ static int is_unproved(const lab_finding *f)
 }
 
 /* Take out one effect that can as well be nothing, if only noise is left without it: a switch that comes a row sooner
- * by accident lowers chi-square as much as a small effect does. Where the time is spent, some of what is kept for the end
- * goes to that.
- * In/out:  f  with its intervals */
+ * by accident lowers chi-square as much as a small effect does. Where the time is spent, some of what is kept for the
+ * end goes to that. In/out:  f  with its intervals */
 static int take_out_accident(lab_finding *f, int *any, lab_error *error)
 {
   static const double kept = 0.15; /* of the search's time, by judgement */
