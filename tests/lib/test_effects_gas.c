@@ -13,7 +13,7 @@ static pneu_state run_vessel(const pneu_params *p, int gas, int flow, double fro
 }
 
 /* Choked leak from a shut isothermal vessel: exponential at the rate of its area. */
-static void footprint_chamber_leak(void)
+FOOTPRINT(chamber_leak, shut_vessel__loses_pressure_as_a_choked_blowdown)
 {
   pneu_params p = fixture_vessel(1e-4);
   const double g = 1.4, R = (double)p.gas_constant, T = 298.15, pa = (double)p.ambient_pressure;
@@ -52,7 +52,7 @@ static double seeped(const pneu_params *p, double from, double rate, double time
   return 2 * pa * ratio / (1 - ratio);
 }
 
-static void footprint_laminar_leak(void)
+FOOTPRINT(laminar_leak, shut_vessel__follows_the_closed_form)
 {
   static const double from[] = {4e5, 2e4, -5e4};
   pneu_params p = fixture_vessel(1e-3);
@@ -88,7 +88,7 @@ static void exponent_of_rate(double n)
 
 /* Shut air that is compressed follows p V^n = const, T V^(n-1) = const; a film decides where there is one, and so does
  * another law. */
-static void footprint_chamber_exponent(void)
+FOOTPRINT(chamber_exponent, shut_air__follows_its_power_law)
 {
   const double n = 1.25;
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -113,7 +113,7 @@ static void footprint_chamber_exponent(void)
 }
 
 /* The flow solves s = q/c + (q/(c p_c))^2, s = p^2 - p_a^2 by size, from inside and outside; slow, it is laminar. */
-static void footprint_porous_leak(void)
+FOOTPRINT(porous_leak, flow__solves_its_law_both_ways)
 {
   static const double at[] = {7e5, 2e5, 1e3, -5e4};
   pneu_params p = fixture_vessel(1e-3);
@@ -144,7 +144,7 @@ static double inflow(const pneu_params *p, int flow, double pressure)
   return fixture_see(&rig).in;
 }
 
-static void footprint_choked_flow(void)
+FOOTPRINT(choked_flow, share__mixes_the_laws)
 {
   static const double pressure[] = {0, 1.5e5, 3e5};
   const pneu_params base = fixture_vessel(1e-4);
@@ -383,7 +383,7 @@ static void check_odd_lines(void)
                TOL(1e-9, 1e-5));
 }
 
-static void footprint_supply_droop(void)
+FOOTPRINT(supply_droop, filling__is_slowed_and_venting_is_not)
 {
   static const double at[] = {0, 2e5, 3.5e5, 3.98e5};
   const pneu_params base = fixture_vessel(1e-4);
@@ -410,7 +410,7 @@ static void footprint_supply_droop(void)
   check_odd_lines();
 }
 
-static void footprint_exhaust_back_pressure(void)
+FOOTPRINT(exhaust_back_pressure, venting__is_slowed_and_filling_is_not)
 {
   static const double at[] = {4e5, 1e5, 1e4, 2e3};
   const pneu_params base = fixture_vessel(1e-4);
@@ -431,7 +431,7 @@ static void footprint_exhaust_back_pressure(void)
 }
 
 /* Venting takes 1/(1 - r) of the time, filling what it took. */
-static void footprint_vent_restriction(void)
+FOOTPRINT(vent_restriction, venting__takes_longer_and_filling_does_not)
 {
   const pneu_params base = fixture_vessel(1e-3);
   pneu_params p = base;
@@ -508,7 +508,7 @@ static void check_all_turbulent_tubes(void)
 
 /* Constant choked inflow q into V_t, then R, then V: with k = R_g T/V the difference p_t - p settles to
  * k_t q R/(k_t + k) with time constant R/(k_t + k). */
-static void footprint_connecting_tube(void)
+FOOTPRINT(connecting_tube, constant_inflow__chamber_trails_the_tube)
 {
   static const double at[] = {0.002, 0.01, 0.05};
   pneu_params p = fixture_vessel(1e-3);
@@ -579,7 +579,7 @@ static void check_moving_stem(void)
 
 /* Constant choked inflow q with hardly any friction: with C = V/(R T) and omega = 2 sqrt(R T)/L the far end's pressure
  * rises by q/C (t - sin(omega t)/omega); 64/Re or Blasius's 0.3164/Re^0.25 takes lambda u/(2 D) of the flow. */
-static void footprint_long_chamber(void)
+FOOTPRINT(long_chamber, constant_inflow__swings_and_friction_damps_it)
 {
   static const double at[] = {0.01, 0.03, 0.1};
   pneu_params base = fixture_vessel(5e-3), p = long_vessel(0.1);
@@ -676,7 +676,7 @@ static double warmed(const pneu_params *p, int gas, double T0, double t)
 
 /* Shut air that begins b too warm falls to p T_w/(T_w + b) as its film takes the heat; a thermometer that lags begins
  * at what it was taken to show. */
-static void footprint_start_temperature(void)
+FOOTPRINT(start_temperature, shut_air__falls_as_it_cools)
 {
   const double b = 30, P = 2e5 + 101325, Tw = 298.15;
   pneu_params p = fixture_vessel(1e-3);
@@ -700,7 +700,7 @@ static void footprint_start_temperature(void)
   assert_close((double)rig.s.p + 101325, P * Tw / (Tw + b), 0, TOL(1e-6, 1e-4));
 }
 
-static void footprint_heat_transfer(void)
+FOOTPRINT(heat_transfer, shut_vessel__levels_temperature_and_pressure_recovers)
 {
   const pneu_params base = fixture_vessel(1e-3);
   pneu_params p = base;
@@ -749,7 +749,7 @@ TEST(test_heat_transfer__parameter_of_another_law__does_not_act)
 
 /* A sealed vessel in an insulated wall: both meet at their mean by heat capacity, the difference decays at
  * G (1/(m c_v) + 1/C); with a loss both end at ambient temperature. */
-static void footprint_wall_temperature(void)
+FOOTPRINT(wall_temperature, sealed_vessel__shares_its_heat_with_the_wall)
 {
   pneu_params p = fixture_vessel(1e-3);
   const double T0 = 250, dT = T0 - 298.15, C = 4, G = 2;
@@ -776,7 +776,7 @@ static void footprint_wall_temperature(void)
 
 /* Of a shut vessel P (1 + c (p_y - p_a)) stays what it was while p_y goes to p: in the end both have what the square
  * says. On the way p_y follows the pressure at the rate of the difference over tau. */
-static void footprint_chamber_creep(void)
+FOOTPRINT(chamber_creep, shut_vessel__shares_its_pressure_with_the_wall)
 {
   const double c = 2e-6, P0 = 3e5, Pa = 101325;
   pneu_params p = fixture_vessel(1e-3);
@@ -803,7 +803,7 @@ static void footprint_chamber_creep(void)
 /* ---- command ---- */
 
 /* In a vessel time enters by the integral of the opening alone: t becomes t - tau (1 - exp(-t/tau)). */
-static void footprint_transducer_lag(void)
+FOOTPRINT(transducer_lag, vessel__runs_late_by_the_integral_of_the_lag)
 {
   static const double at[] = {0.005, 0.02, 0.08};
   const pneu_params base = fixture_vessel(1e-3);
@@ -840,7 +840,7 @@ TEST(test_transducer_lag__regulator_at_rest__starts_from_its_opening)
 }
 
 /* The pressure of a prompt transducer, later by the dead time; test_delay.c has the rest. */
-static void footprint_dead_time(void)
+FOOTPRINT(dead_time, model__holds_the_delay)
 {
   const pneu_params base = fixture_vessel(1e-3);
   pneu_params p = base;
@@ -902,7 +902,7 @@ static pneu_state follow(const pneu_params *p, double set)
   return s;
 }
 
-static void footprint_positioner(void)
+FOOTPRINT(positioner, opening__follows_the_error_and_the_integral_takes_it_away)
 {
   /* with a dead band of 1 % and cut-offs at 2 and 98 % */
   static const struct law {
@@ -956,7 +956,7 @@ static void footprint_positioner(void)
   assert_close(rig.s.extra[0], e, TOL(1e-5, 1e-4), 1e-2);
 }
 
-static void footprint_positioner_bend(void)
+FOOTPRINT(positioner_bend, half_opening__passes_less_and_full_opening_as_before)
 {
   pneu_params p = positioned(2);
   fixture_set(&p, "flow_bend", 0.4);
@@ -965,7 +965,7 @@ static void footprint_positioner_bend(void)
   assert_close(asked(&p, 1, 0.5), 1, TOL(1e-12, 1e-5), 0);
 }
 
-static void footprint_positioner_dead_band(void)
+FOOTPRINT(positioner_dead_band, small_errors__open_nothing)
 {
   pneu_params p = positioned(20);
   fixture_set(&p, "dead_band", 0.01);
@@ -978,7 +978,7 @@ static void footprint_positioner_dead_band(void)
 
 /* Between two orifices in series the chamber stands where [B, Eq. 8] gives both the same flow: f^2 P_s (P_s - P) =
  * v^2 P (P - P_a), a quadratic equation. */
-static void footprint_positioner_overlap(void)
+FOOTPRINT(positioner_overlap, spool__opens_late_or_never_shuts)
 {
   static const double u[] = {0, 0.02, -0.03, 0.04};
   pneu_params p = positioned(2), q = fixture_vessel(1e-5);
@@ -998,7 +998,7 @@ static void footprint_positioner_overlap(void)
   }
 }
 
-static void footprint_positioner_span(void)
+FOOTPRINT(positioner_span, stem__rests_off_in_proportion)
 {
   pneu_params p = positioned(20);
   fixture_set(&p, "span_excess", 0.25);
@@ -1006,7 +1006,7 @@ static void footprint_positioner_span(void)
   assert_close((double)follow(&p, 1).x / 0.02, 0.8, TOL(1e-6, 1e-4), 0);
 }
 
-static void footprint_positioner_zero(void)
+FOOTPRINT(positioner_zero, stem__rests_off_by_the_same)
 {
   pneu_params p = positioned(20);
   fixture_set(&p, "zero_shift", 1e-3);
@@ -1014,34 +1014,9 @@ static void footprint_positioner_zero(void)
   assert_close((double)follow(&p, 0.9).x / 0.02, 0.85, TOL(1e-6, 1e-4), 0);
 }
 
-static footprint footprints[] = {
-    {"chamber_creep", "shut_vessel__shares_its_pressure_with_the_wall", footprint_chamber_creep},
-    {"chamber_exponent", "shut_air__follows_its_power_law", footprint_chamber_exponent},
-    {"chamber_leak", "shut_vessel__loses_pressure_as_a_choked_blowdown", footprint_chamber_leak},
-    {"choked_flow", "share__mixes_the_laws", footprint_choked_flow},
-    {"connecting_tube", "constant_inflow__chamber_trails_the_tube", footprint_connecting_tube},
-    {"dead_time", "model__holds_the_delay", footprint_dead_time},
-    {"exhaust_back_pressure", "venting__is_slowed_and_filling_is_not", footprint_exhaust_back_pressure},
-    {"heat_transfer", "shut_vessel__levels_temperature_and_pressure_recovers", footprint_heat_transfer},
-    {"laminar_leak", "shut_vessel__follows_the_closed_form", footprint_laminar_leak},
-    {"long_chamber", "constant_inflow__swings_and_friction_damps_it", footprint_long_chamber},
-    {"porous_leak", "flow__solves_its_law_both_ways", footprint_porous_leak},
-    {"positioner", "opening__follows_the_error_and_the_integral_takes_it_away", footprint_positioner},
-    {"positioner_bend", "half_opening__passes_less_and_full_opening_as_before", footprint_positioner_bend},
-    {"positioner_dead_band", "small_errors__open_nothing", footprint_positioner_dead_band},
-    {"positioner_overlap", "spool__opens_late_or_never_shuts", footprint_positioner_overlap},
-    {"positioner_span", "stem__rests_off_in_proportion", footprint_positioner_span},
-    {"positioner_zero", "stem__rests_off_by_the_same", footprint_positioner_zero},
-    {"start_temperature", "shut_air__falls_as_it_cools", footprint_start_temperature},
-    {"supply_droop", "filling__is_slowed_and_venting_is_not", footprint_supply_droop},
-    {"transducer_lag", "vessel__runs_late_by_the_integral_of_the_lag", footprint_transducer_lag},
-    {"vent_restriction", "venting__takes_longer_and_filling_does_not", footprint_vent_restriction},
-    {"wall_temperature", "sealed_vessel__shares_its_heat_with_the_wall", footprint_wall_temperature},
-};
-
 TEST(test_effects_def__each_effect_on_the_gas__has_a_footprint_test)
 {
-  footprint_complete(footprints, COUNT(footprints), "mass energy command");
+  footprint_complete("mass energy command");
 }
 
 /* A stem that a positioner with a dead band has brought to rest creeps off again when its set position does: holds and
@@ -1143,6 +1118,5 @@ TEST(test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_b
 
 int main(void)
 {
-  footprint_join(footprints, COUNT(footprints));
   return tests_run(NULL, NULL);
 }

@@ -41,25 +41,25 @@ static pneu_params with(const char *name, double value)
   return p;
 }
 
-static void footprint_pressure_bias(void)
+FOOTPRINT(pressure_bias, at_rest__is_added)
 {
   const pneu_params p = with("pressure_bias", -3e3);
   check_at_rest(&p, 1.5e5 - 3e3, 0.008, 330);
 }
 
-static void footprint_pressure_gain(void)
+FOOTPRINT(pressure_gain, at_rest__multiplies)
 {
   const pneu_params p = with("pressure_gain", 0.04);
   check_at_rest(&p, 1.5e5 * 1.04, 0.008, 330);
 }
 
-static void footprint_position_bias(void)
+FOOTPRINT(position_bias, at_rest__is_added)
 {
   const pneu_params p = with("position_bias", 5e-4);
   check_at_rest(&p, 1.5e5, 0.0085, 330);
 }
 
-static void footprint_position_gain(void)
+FOOTPRINT(position_gain, at_rest__multiplies)
 {
   const pneu_params p = with("position_gain", -0.03);
   check_at_rest(&p, 1.5e5, 0.008 * 0.97, 330);
@@ -84,7 +84,7 @@ static double trailing(double slope, double t, double tau)
   return slope * (t - tau * (1 - exp(-t / tau)));
 }
 
-static void footprint_pressure_lag(void)
+FOOTPRINT(pressure_lag, ramp__trails_by_the_closed_form)
 {
   static const double at[] = {0.01, 0.05, 0.4};
   const pneu_params p = with("pressure_time", 0.05);
@@ -101,7 +101,7 @@ static void footprint_pressure_lag(void)
   }
 }
 
-static void footprint_position_lag(void)
+FOOTPRINT(position_lag, ramp__trails_by_the_closed_form)
 {
   static const double at[] = {0.01, 0.05, 0.4};
   const pneu_params p = with("position_time", 0.05);
@@ -119,7 +119,7 @@ static void footprint_position_lag(void)
 }
 
 /* From a sensor still at ambient temperature in gas that keeps its own. */
-static void footprint_temperature_lag(void)
+FOOTPRINT(temperature_lag, steady_gas__is_approached_as_first_order)
 {
   const pneu_params p = with("temperature_time", 0.4);
   const pneu_model m = fixture_model(&p, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER);
@@ -134,27 +134,16 @@ static void footprint_temperature_lag(void)
 }
 
 /* The skew is the model's constant; a state shows what it holds. tests/lab/run/test_response.c has the programs. */
-static void footprint_channel_skew(void)
+FOOTPRINT(channel_skew, model__holds_the_skew)
 {
   const pneu_params p = with("channel_skew", -0.03);
   assert_close(fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_PAPER).position_skew, -0.03, 0, TOL(1e-15, 1e-7));
   check_at_rest(&p, 1.5e5, 0.008, 330);
 }
 
-static footprint footprints[] = {
-    {"channel_skew", "model__holds_the_skew", footprint_channel_skew},
-    {"position_bias", "at_rest__is_added", footprint_position_bias},
-    {"position_gain", "at_rest__multiplies", footprint_position_gain},
-    {"position_lag", "ramp__trails_by_the_closed_form", footprint_position_lag},
-    {"pressure_bias", "at_rest__is_added", footprint_pressure_bias},
-    {"pressure_gain", "at_rest__multiplies", footprint_pressure_gain},
-    {"pressure_lag", "ramp__trails_by_the_closed_form", footprint_pressure_lag},
-    {"temperature_lag", "steady_gas__is_approached_as_first_order", footprint_temperature_lag},
-};
-
 TEST(test_effects_def__each_effect_on_a_sensor__has_a_footprint_test)
 {
-  footprint_complete(footprints, COUNT(footprints), "sensor");
+  footprint_complete("sensor");
 }
 
 /* ---- pneu_show: the sensors alone ---- */
@@ -342,6 +331,5 @@ TEST(test_lags__from_a_nanosecond_on__act)
 
 int main(void)
 {
-  footprint_join(footprints, COUNT(footprints));
   return tests_run(NULL, NULL);
 }

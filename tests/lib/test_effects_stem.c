@@ -48,7 +48,7 @@ static double acceleration(const pneu_model *m, double pressure, double x, doubl
 
 /* ---- friction ---- */
 
-static void footprint_stribeck_friction(void)
+FOOTPRINT(stribeck_friction, at_rest_and_sliding__raises_the_level_as_declared)
 {
   static const double v[] = {1e-4, -1e-3, 3e-3, 0.1};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -66,7 +66,7 @@ static void footprint_stribeck_friction(void)
 }
 
 /* Level F (1 + a x/stroke) wherever the stem stands; at the upper stop it lets go at k (x + x0) - F (1 + a). */
-static void footprint_friction_position(void)
+FOOTPRINT(friction_position, level_and_break_away__depend_on_position)
 {
   static const double x[] = {0, 0.004, 0.02};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -89,7 +89,7 @@ static void footprint_friction_position(void)
 }
 
 /* The stem leaves the lower stop at p A = k x0 + F + f p; below ambient pressure friction is F. */
-static void footprint_friction_pressure(void)
+FOOTPRINT(friction_pressure, break_away__depends_on_pressure)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double f = 2e-3;
@@ -173,7 +173,7 @@ TEST(test_presliding__at_a_stop__bristles_stay_bent)
 }
 
 /* Quasi-static from z = 0: dz/dx = (1 - z)/d, so that x = -d ln(1 - force/F) before break-away. */
-static void footprint_presliding(void)
+FOOTPRINT(presliding, before_break_away__stem_moves_by_micrometres)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double d = 2e-5;
@@ -242,7 +242,7 @@ TEST(test_pneu_switch__bristles__turns_round)
 /* ---- spring ---- */
 
 /* At rest p A = k (x + x0) + k3 x^3. */
-static void footprint_spring_hardening(void)
+FOOTPRINT(spring_hardening, balance__bends_with_the_cube)
 {
   static const double cubic[] = {1e8, -1e8};
   pneu_params p = fixture_params(FIXTURE_R1_400);
@@ -258,7 +258,7 @@ static void footprint_spring_hardening(void)
 
 /* Over a travel s from z0 on: z = 1 - (1 - z0) exp(-s/d) upwards, -1 + (1 + z0) exp(-s/d) downwards; at rest it stays.
  */
-static void footprint_spring_hysteresis(void)
+FOOTPRINT(spring_hysteresis, reversals__follow_the_closed_form)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double d = 2e-3, F = 300, up = 1 - exp(-0.005 / d);
@@ -283,7 +283,7 @@ static void footprint_spring_hysteresis(void)
 
 /* Driven at a velocity v from rest, y stays behind by v tau (1 - exp(-t/tau)); held, it comes after. At rest in
  * equilibrium nothing of it is left. */
-static void footprint_spring_creep(void)
+FOOTPRINT(spring_creep, driven_and_held__follows_by_the_closed_form)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double k = 8e4, tau = 0.4, v = 0.01, stroke = (double)p.stroke, behind = v * tau * (1 - exp(-0.5 / tau));
@@ -306,7 +306,7 @@ static void footprint_spring_creep(void)
 /* ---- geometry ---- */
 
 /* At rest p A (1 - a x/stroke) = k (x + x0); sealed air follows the integral of the swept area. */
-static void footprint_area_variation(void)
+FOOTPRINT(area_variation, balance_and_sealed_air__follow_the_area)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double a = 0.1, pa = (double)p.ambient_pressure;
@@ -331,7 +331,7 @@ static void footprint_area_variation(void)
   assert_close(pneu_mass(&m, &s), (3e5 + pa) * 1e-4 / ((double)p.gas_constant * 298.15), 0, TOL(1e-8, 1e-4));
 }
 
-static void footprint_travel_limit(void)
+FOOTPRINT(travel_limit, filling__ends_short)
 {
   const pneu_params base = fixture_params(FIXTURE_R1_400);
   pneu_params p = base;
@@ -349,7 +349,7 @@ static void footprint_travel_limit(void)
 }
 
 /* On the lower stop c (k x0 - p A) = -x (1 + k c), on the upper one likewise; the stem sticks and slides there. */
-static void footprint_stop_compliance(void)
+FOOTPRINT(stop_compliance, stem_on_a_stop__sinks_in_by_the_load)
 {
   pneu_params p = fixture_params(FIXTURE_R1_400);
   const double c = 2e-8, k = 4e5;
@@ -482,26 +482,12 @@ TEST(test_stop_compliance__creeping_in__does_not_chatter)
   }
 }
 
-static footprint footprints[] = {
-    {"area_variation", "balance_and_sealed_air__follow_the_area", footprint_area_variation},
-    {"friction_position", "level_and_break_away__depend_on_position", footprint_friction_position},
-    {"friction_pressure", "break_away__depends_on_pressure", footprint_friction_pressure},
-    {"presliding", "before_break_away__stem_moves_by_micrometres", footprint_presliding},
-    {"spring_creep", "driven_and_held__follows_by_the_closed_form", footprint_spring_creep},
-    {"spring_hardening", "balance__bends_with_the_cube", footprint_spring_hardening},
-    {"spring_hysteresis", "reversals__follow_the_closed_form", footprint_spring_hysteresis},
-    {"stop_compliance", "stem_on_a_stop__sinks_in_by_the_load", footprint_stop_compliance},
-    {"stribeck_friction", "at_rest_and_sliding__raises_the_level_as_declared", footprint_stribeck_friction},
-    {"travel_limit", "filling__ends_short", footprint_travel_limit},
-};
-
 TEST(test_effects_def__each_effect_on_the_stem__has_a_footprint_test)
 {
-  footprint_complete(footprints, COUNT(footprints), "force");
+  footprint_complete("force");
 }
 
 int main(void)
 {
-  footprint_join(footprints, COUNT(footprints));
   return tests_run(NULL, NULL);
 }
