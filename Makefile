@@ -36,7 +36,7 @@ TOOLS   := $(PROGS) export-fmu
 # The test of a file of lib/ or apps/ lies under tests/ as the file does under the root; those of helpers lie beside them.
 TEST_C  := $(wildcard tests/test_*.c tests/*/test_*.c tests/lab/*/test_*.c)
 BLIND_C := $(filter-out $(TEST_C),$(wildcard tests/blind/*.c))
-HELP_C  := tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c $(TEST_C),$(wildcard tests/second/*.c) $(BLIND_C))
+HELP_C  := tests/check.c tests/fixture.c tests/fuzz/targets.c $(filter-out %/main.c $(TEST_C),$(wildcard tests/second/*.c) $(BLIND_C))
 BENCH_C := $(filter-out %/main.c %/fleet.c,$(wildcard tests/bench/*.c)) tests/second/rig.c $(filter-out tests/blind/main.c,$(BLIND_C))
 
 LIB_O   := $(LIB_C:%.c=$(BUILD)/%.o)
@@ -218,7 +218,7 @@ $(PROGS:%=$(BUILD)/bin/%): $(BUILD)/bin/%: $(BUILD)/apps/%.o $(LAB) $(STATIC) $(
 $(PROGS): %: $(BUILD)/bin/%
 	$(say) cp -f $< $@
 
-$(TESTS:%=%.o) $(BUILD)/tests/fixture.o: | $(BUILD)/found/tests
+$(TESTS:%=%.o) $(BUILD)/tests/check.o $(BUILD)/tests/fixture.o: | $(BUILD)/found/tests
 $(BUILD)/tests/%.o: tests/%.c | $(BUILD)/found/programs
 	@mkdir -p $(@D)
 	$(say) $(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(SINGLE_FLAG) -DPROGRAMS='"$(BUILD)/bin"' $(CFLAGS) -c $< -o $@

@@ -31,15 +31,7 @@ static char check_case[160];
 /* ---- Tests, which join by themselves: TEST(test_what__how__what_comes_of_it) { ... } ---- */
 
 enum { CHECK_TESTS = 200 };
-static struct CMUnitTest check_tests[CHECK_TESTS];
-static int check_n;
-
-static inline void check_join(struct CMUnitTest test)
-{
-  if (check_n == CHECK_TESTS)
-    abort();
-  check_tests[check_n++] = test;
-}
+void check_join(struct CMUnitTest test);
 
 #define TEST(name) TEST_WITH(name, NULL, NULL)
 
@@ -52,13 +44,13 @@ static inline void check_join(struct CMUnitTest test)
   }                                                                                                                    \
   static void name(void **state)
 
-/* What main returns.  In: setup, teardown  of all tests together; may be NULL */
-static inline int tests_run(int (*setup)(void **state), int (*teardown)(void **state))
-{
-  if (check_n == 0)
-    abort(); /* what has no test must not pass */
-  return _cmocka_run_group_tests("tests", check_tests, (size_t)check_n, setup, teardown);
-}
+/* Set-up and tear-down, or NULL, of all tests of a program together; of two the later counts. */
+#define TESTS_WITH(setup, teardown)                                                                                    \
+  __attribute__((constructor)) static void setup##_and_##teardown(void)                                                \
+  {                                                                                                                    \
+    check_around(setup, teardown);                                                                                     \
+  }
+void check_around(int (*setup)(void **state), int (*teardown)(void **state));
 
 /* ---- Numbers ---- */
 

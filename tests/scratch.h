@@ -1,5 +1,5 @@
-/* A folder for a test's files, removed afterwards: pass scratch_open and scratch_close to cmocka as the set-up and
- * tear-down of the group.
+/* A folder for a test program's files, removed afterwards. A set-up and a tear-down of its own call scratch_open and
+ * scratch_close.
  * SPDX-License-Identifier: MIT */
 #ifndef TESTS_SCRATCH_H
 #define TESTS_SCRATCH_H
@@ -102,5 +102,7 @@ static inline int scratch_close(void **state)
   scratch_remove(scratch_folder);
   return 0;
 }
+
+TESTS_WITH(scratch_open, scratch_close)
 
 #endif

@@ -16,8 +16,3 @@ TEST(test_check_is_close__at_the_tolerance__is_accepted_and_beyond_refused)
   assert_false(check_is_close(1.75, 1, 0.5, 0));
   assert_false(check_is_close(-1, 1, 0, 0.5));
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -17,6 +17,8 @@ static int open_all(void **state)
   return scratch_open(state);
 }
 
+TESTS_WITH(open_all, scratch_close)
+
 /* Run closeloop with DIR "out" in the scratch folder, with time for slow machines and sanitizers.
  * Out:     text  its messages on both streams, to be freed
  * Returns: exit status */
@@ -646,9 +648,4 @@ TEST(test_closeloop__bad_holdout__is_refused_before_any_fit)
   assert_contains(text, "held.csv:");
   assert_contains(text, "is its sign turned");
   free(text);
-}
-
-int main(void)
-{
-  return tests_run(open_all, scratch_close);
 }

@@ -53,6 +53,8 @@ static int write_inputs(void **state)
   return 0;
 }
 
+TESTS_WITH(write_inputs, scratch_close)
+
 static int lines_of(const char *text)
 {
   int n = 0;
@@ -330,9 +332,4 @@ TEST(test_simulate__help_and_version__are_0_on_stdout)
   assert_int_equal(run("--version"), 0);
   assert_contains(out, "simulate (libpneu)");
   assert_string_equal(err, "");
-}
-
-int main(void)
-{
-  return tests_run(write_inputs, scratch_close);
 }

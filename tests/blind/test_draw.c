@@ -270,8 +270,3 @@ TEST(test_blind_limit__dead_time__grows_with_the_spacing_of_rows)
   assert_int_equal(blind_limit(&t, 0, &coarse, &statistic, &error), LAB_OK);
   assert_between(coarse / fine, 3, 100);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

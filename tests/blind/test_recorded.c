@@ -564,8 +564,3 @@ TEST(test_blind_recorded_visible__noise_and_converter__hide)
   assert_between(coarse.value[friction], 0, 0.1 * fine.value[friction]);
   assert_between(noisy.value[friction], 0, 0.1 * fine.value[friction]);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

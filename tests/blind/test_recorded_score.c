@@ -390,8 +390,3 @@ TEST(test_blind_prepare__same_trial__keeps_its_files)
   assert_int_equal(blind_prepare(&r, scratch_path("kept"), &again, &second, &error), LAB_OK);
   assert_int_equal(access(path, R_OK), 0);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -364,8 +364,3 @@ TEST(test_blind_summary_write__misses__are_listed_one_by_one)
   assert_null(strstr(text, "\n| 4 | px"));
   free(text);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

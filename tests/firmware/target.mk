@@ -50,7 +50,7 @@ $(OUT)/demo $(OUT)/count:
 
 # The core's tests, with a small stand-in for cmocka.
 TEST_FLAGS := -D_POSIX_C_SOURCE=200809L -Itests/firmware/cmocka
-TEST_NEEDS := $(OUT)/tests/fixture.o $(OUT)/tests/second/rig.o $(OUT)/libpneu.a
+TEST_NEEDS := $(OUT)/tests/check.o $(OUT)/cmocka/cmocka.o $(OUT)/tests/fixture.o $(OUT)/tests/second/rig.o $(OUT)/libpneu.a
 $(OUT)/tests/lib/test_%: $(OUT)/tests/lib/test_%.o $(TEST_NEEDS)
 	$(CC) $(FLAGS) $(LINK) $^ -lm -o $@
 $(OUT)/tests/lib/test_%.exe: $(OUT)/tests/lib/test_%.o $(TEST_NEEDS)

@@ -53,8 +53,3 @@ TEST(test_seeds__replayed__keep_the_readers_promises)
 {
   assert_true(replay_folder("tests/fuzz/seeds") >= FUZZ_TARGETS);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -276,8 +276,3 @@ TEST(test_free_terms__run__keep_mass_and_energy)
       check_model(&m);
     }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -102,8 +102,3 @@ TEST(test_pneu_balance_pressure__each_effect_of_usual_size__is_where_a_stem_at_r
     }
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

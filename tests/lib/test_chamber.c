@@ -412,8 +412,3 @@ TEST(test_pneu_rhs__state_outside_the_domain__asks_for_a_smaller_step)
     assert_int_equal(pneu_observe(&rig.m, &rig.s, &rig.input, &out), PNEU_RETRY_STATE);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -242,8 +242,3 @@ TEST(test_pneu_delay_follow__no_room__says_so)
   assert_int_equal(pneu_delay_follow(&d, 1, (pneu_real)0.1, 1), PNEU_OK); /* held, and then ran */
   assert_int_equal(pneu_delay_follow(&d, 1, (pneu_real)0.1, 2), PNEU_E_DELAY);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

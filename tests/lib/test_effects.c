@@ -327,8 +327,3 @@ TEST(test_pneu_observe__each_effect_on_a_vessel__shows_numbers)
     assert_true(look.friction > 0);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -1115,8 +1115,3 @@ TEST(test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_b
   }
   assert_close(high - low, band, 0, 0.03);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -328,8 +328,3 @@ TEST(test_lags__from_a_nanosecond_on__act)
   assert_int_equal(fixture_model(&at, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 1);
   assert_int_equal(fixture_model(&below, PNEU_GAS_ENERGY, PNEU_FLOW_PAPER).n_active, 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

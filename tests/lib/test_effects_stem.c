@@ -486,8 +486,3 @@ TEST(test_effects_def__each_effect_on_the_stem__has_a_footprint_test)
 {
   footprint_complete("force");
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -351,8 +351,3 @@ TEST(test_pneu_observe__choked__is_reported_while_it_lasts)
   s = fixture_rest(&m, edge + 100, 0, &input);
   assert_false(fixture_look(&m, &s, &input).choked);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -215,8 +215,3 @@ TEST(test_pneu_step_try__singular_matrix__is_refused)
   work.jac[0][0] = 1 / (gamma * h);
   assert_int_equal(pneu_step_try(&rig.m, &rig.s, &rig.input, h, &work, &error), PNEU_E_SINGULAR);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -283,8 +283,3 @@ TEST(test_pneu_options_default__each__is_as_documented)
   assert_close(options.h_max, 0, 0, 0);
   assert_int_equal(options.max_steps, 100000);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -501,8 +501,3 @@ TEST(test_pneu_observe__driven_stem__shows_the_force_that_holds_it)
     assert_close(out.holding_force, 2.5e5 * 0.04 - 4e5 * 0.015 - 30 - 1500 * v - 480 * sense, 0, TOL(1e-12, 1e-5));
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

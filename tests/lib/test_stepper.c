@@ -1190,8 +1190,3 @@ TEST(test_pneu_step__outside_documented_ranges__is_refused_and_state_kept)
     assert_memory_equal(&s, &before, sizeof s);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

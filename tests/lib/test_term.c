@@ -651,8 +651,3 @@ TEST(test_pneu_run__constant_heat__raises_the_pressure)
   fixture_go(&rig, 3, FIXTURE_TOL, NULL);
   assert_close(rig.s.p, 0.4 * 10 * 3 / 1e-3, 0, TOL(1e-8, 1e-3));
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

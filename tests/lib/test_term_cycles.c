@@ -381,8 +381,3 @@ TEST(test_pneu_add_terms__supply_below_vacuum__stays_above_it)
   rig.s.extra[rig.m.clock] = 0;
   assert_close(fixture_see(&rig).supply, -0.999 * 101325, TOL(1e-6, 1), 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

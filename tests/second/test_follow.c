@@ -120,8 +120,3 @@ TEST(test_second_follow__leak_that_begins__empties_from_then_on)
   for (i = 0; i <= 3000; i++)
     assert_close(got.p[i] + g.ambient, 800e3 * exp(-fmax(0, got.t[i] - 1.2345) / tau), 0, 1e-9);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

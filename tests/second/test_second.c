@@ -322,8 +322,3 @@ TEST(test_second_run__step_far_beyond_stability__is_reported)
   g.step = 0.5;
   assert_int_equal(second_run(&g, &t0, &u, 1, 5.0, 0.5, NULL, NULL), 1);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

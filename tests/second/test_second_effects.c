@@ -650,8 +650,3 @@ TEST(test_second_run__all_effects_at_once__audits_close)
       a.kinetic_end - a.kinetic_start + a.spring_end - a.spring_start + a.dry + a.viscous + a.impact + a.other;
   assert_close(work, taken, 1e-5 * a.dry, 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

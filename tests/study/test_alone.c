@@ -86,8 +86,3 @@ TEST(test_alone_fit_sensor__unknown_parameter__is_refused)
   assert_int_equal(alone_fit_sensor(&rig, log_of(1, 0), "no_such", LAB_CHANNEL_X, &fit, &error), LAB_DATA);
   assert_contains(error.text, "no_such");
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -79,8 +79,3 @@ TEST(test_attribution__shares__add_up)
     assert_close(sum[g], 1, 1e-8, 0);
   table_close(&t);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -501,8 +501,3 @@ TEST(test_conclusions_try__parameters_out_of_bounds__says_which_actuator_and_law
   assert_contains(error.text, "area");
   free(found);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -111,8 +111,3 @@ TEST(test_study_each__twin_and_gas_laws__cells)
   assert_int_equal(n[2], 11);
   assert_int_equal(n[3], 12);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -150,8 +150,3 @@ TEST(test_hypotheses__spring_or_air__each_stroke_as_the_closed_form_has_it)
     check_constant_load(&s.actuator[a]);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

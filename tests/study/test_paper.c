@@ -352,6 +352,8 @@ static int close_numbers(void **state)
   return 0;
 }
 
+TESTS_WITH(make_numbers, close_numbers)
+
 static size_t row_named(const char *item)
 {
   size_t i;
@@ -621,9 +623,4 @@ TEST(test_paper_figure__fig08_paper_flow__rises_to_golden_ratio)
   assert_close(high, 8.0, 0, TIGHT);
   assert_true(i > 100);
   table_close(&t);
-}
-
-int main(void)
-{
-  return tests_run(make_numbers, close_numbers);
 }

@@ -104,8 +104,3 @@ TEST(test_replicates__channel_that_is_not_there__is_refused)
   assert_contains(error.text, "has no channel T");
   config_destroy(&config);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -131,8 +131,3 @@ TEST(test_report__no_table__data_error)
   assert_int_equal(report_make(made_up(), &error), LAB_DATA);
   assert_contains(error.text, "conclusions_thresholds.csv");
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -366,8 +366,3 @@ TEST(test_sets_cfg__words__hold_no_figures)
     }
   config_destroy(&config);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

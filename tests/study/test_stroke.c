@@ -56,8 +56,3 @@ TEST(test_linear_model_init__law_of_the_library__is_that_of_pneu_model_init)
   laws.flow = LINEAR_CHOKED_FLOW + 1;
   assert_int_equal(linear_model_init(&model, &p, &laws, NULL), PNEU_E_LAW);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

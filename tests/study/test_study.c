@@ -139,8 +139,3 @@ TEST(test_study_laws__others_than_the_rig_s__keep_its_inputs)
   assert_int_equal(laws.flow, PNEU_FLOW_ISO6358);
   assert_int_equal(laws.position_input, 1);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

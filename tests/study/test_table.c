@@ -104,8 +104,3 @@ TEST(test_table_write__memory_ran_out__world_error)
   assert_int_equal(table_write(&t, stdout, &error), LAB_WORLD);
   table_close(&t);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

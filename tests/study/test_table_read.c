@@ -62,8 +62,3 @@ TEST(test_table_load__results_folder__is_where_it_looks)
   assert_close(table_number(&t, 0, "a"), 7, 0, 0);
   table_close(&t);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

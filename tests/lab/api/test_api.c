@@ -35,6 +35,8 @@ static int free_inputs(void **state)
   return scratch_close(state);
 }
 
+TESTS_WITH(read_inputs, free_inputs)
+
 static lab_api_request usual(void)
 {
   return (lab_api_request){.rig = rig, .log = &fit, .n_logs = 1, .holdout = &holdout, .n_holdout = 1};
@@ -177,9 +179,4 @@ TEST(test_lab_api_draft__log_and_sheet__as_the_program)
   free(want);
   assert_int_equal(lab_api_draft(&fit, wrong, 1, &drafted, &error), LAB_USAGE);
   assert_null(drafted);
-}
-
-int main(void)
-{
-  return tests_run(read_inputs, free_inputs);
 }

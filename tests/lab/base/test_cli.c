@@ -215,8 +215,3 @@ TEST(test_lab_progress_count__half_done__tells_time_to_go_and_clears)
   assert_string_equal(shown, "\rfit: 50 of 100, 50 a second, 1 s to go \033[K\r\033[K");
   free(shown);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -236,8 +236,3 @@ TEST(test_lab_colour_estimate__few_values__says_nothing)
   assert_int_equal(lab_colour_estimate(&rest, 0, &c, &scale, &error), LAB_OK);
   assert_close(c.memory, 0, 0, 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

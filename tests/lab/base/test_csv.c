@@ -164,8 +164,3 @@ TEST(test_lab_csv_line__as_long_as_may_be_and_longer__is_told_apart)
   lab_csv_close(&csv);
   free(text);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

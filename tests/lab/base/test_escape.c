@@ -383,8 +383,3 @@ TEST(test_lab_rig_read__file_of_any_name__has_a_plain_one)
     assert_true(lab_is_plain(rig.name) && *rig.name);
   }
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

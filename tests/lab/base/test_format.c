@@ -79,8 +79,3 @@ TEST(test_lab_format_p__small__is_said_to_be_small)
   assert_string_equal(lab_format_p(0.1449, text), "0.14");
   assert_string_equal(lab_format_p(4.1e-188, text), "4.1e-188");
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -94,8 +94,3 @@ TEST(test_lab_line__half__holds_as_often_as_it_says)
     assert_true(held > 0.94 * TRIALS && held < (k ? 0.965 : 0.995) * TRIALS);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -52,8 +52,3 @@ TEST(test_lab_name_index__exact_name__is_its_row)
   assert_int_equal(lab_name_index("spring_rate", rows, ROWS, sizeof rows[0]), 2);
   assert_int_equal(lab_name_index("Spring_rate", rows, ROWS, sizeof rows[0]), -1);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

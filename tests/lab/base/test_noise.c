@@ -185,8 +185,3 @@ TEST(test_lab_resolution__smooth_or_without_steps__is_none)
     y[i] = i < N / 2 ? 0 : 1 - exp(-0.1 * (i - N / 2));
   assert_between(lab_resolution(y, N), 0, 1e-15); /* it ends within the digits of a double */
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

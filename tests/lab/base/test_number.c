@@ -112,8 +112,3 @@ TEST(test_lab_number_write__any_number__is_short_and_the_same)
     assert_true(strtod(lab_number_write(value, text), NULL) == value);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -176,8 +176,3 @@ TEST(test_lab_make_folder__file_of_that_name__is_refused)
 {
   assert_int_equal(lab_make_folder(scratch_text("a_file", "x"), &error), LAB_WORLD);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -83,8 +83,3 @@ TEST(test_lab_page_append__no_list__nothing)
   lab_json_put(NULL, "a", "%d", 1);
   lab_json_say(NULL, "%d", 1);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

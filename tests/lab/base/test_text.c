@@ -103,8 +103,3 @@ TEST(test_lab_append__more_than_fits__is_cut)
   lab_append(text, sizeof text, "%d", 1234);
   assert_string_equal(text, "ab, cd1");
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -146,8 +146,3 @@ TEST(test_lab_unit_factor__column_units__give_scale_and_offset)
   assert_int_equal(lab_unit_factor("ms", "s", &scale, &offset, &error), LAB_OK);
   assert_close(scale, 1e-3, 0, 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

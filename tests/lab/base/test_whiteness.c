@@ -164,8 +164,3 @@ TEST(test_lab_whiteness_test__too_few_values__says_nothing)
   lab_whiteness_test(&nothing, 1, &w);
   assert_true(isnan(w.p_value));
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -593,8 +593,3 @@ TEST(test_lab_batch__long_list__takes_no_more_memory)
   check_note("100 lines %ld kB, 2000 lines %ld kB", few, rss);
   assert_true(rss - few < 200);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

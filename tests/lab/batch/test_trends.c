@@ -201,8 +201,3 @@ CASE(test_lab_trends__written__table_and_page)
   assert_int_equal(lab_trends_write(&trends, scratch_path("trends.csv"), &error), LAB_OK);
   assert_int_equal(access(scratch_path("trends.csv"), F_OK), -1);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

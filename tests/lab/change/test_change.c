@@ -355,8 +355,3 @@ TEST(test_lab_changes_find__no_parameter_has_it__cannot_tell)
   assert_true(*changes.why != '\0');
   assert_true(changes.condition != LAB_SINCE_UNCHANGED);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

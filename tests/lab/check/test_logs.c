@@ -48,8 +48,3 @@ TEST(test_lab_logs_add__set_position_with_gaps__is_only_shown)
   assert_int_equal(driver(gaps, 1, 1, &without_u), LAB_CHANNEL_U);
   assert_int_equal(without_u, 0);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

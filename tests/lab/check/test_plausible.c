@@ -23,6 +23,8 @@ static int open_all(void **state)
   return scratch_open(state);
 }
 
+TESTS_WITH(open_all, scratch_close)
+
 static int done(void **state)
 {
   lab_log_free(&log_read);
@@ -705,9 +707,4 @@ CASE(test_lab_log_remove_hum__uneven_rows__are_as_good)
   assert_close(taken_off(&(humming){50, 200, 3e3, 0.3, 0.03}), 3e3, 0, 0.02);
   assert_close(taken_off(&(humming){50, 200, 250, 0.3, 0.03}), 250, 0, 0.2); /* less than the noise of a row */
   assert_close(taken_off(&(humming){50, 200, 0, 0.3, 0.03}), 0, 0, 0);
-}
-
-int main(void)
-{
-  return tests_run(open_all, scratch_close);
 }

@@ -139,8 +139,3 @@ CASE(test_lab_log_smooth_inputs__gaps__stay_gaps)
   assert_int_equal(gaps, 20);
   assert_true(isnan(log_made.value[LAB_CHANNEL_P][100]) && !isnan(log_made.value[LAB_CHANNEL_P][99]));
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

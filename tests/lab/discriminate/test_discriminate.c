@@ -685,8 +685,3 @@ TEST(test_lab_normal_deviations__two_unknowns__are_those_of_the_inverse)
   assert_close(deviation[0], sqrt(1.0 / 3), 1e-12, 0);
   assert_close(deviation[1], sqrt(5.0 / 6), 1e-12, 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

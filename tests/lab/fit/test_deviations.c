@@ -191,8 +191,3 @@ TEST(test_lab_deviation_of__value_hardly_known__is_beyond_where_all_of_its_inter
     assert_int_equal(d.beyond, cases[i].beyond);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

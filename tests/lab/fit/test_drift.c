@@ -144,8 +144,3 @@ TEST(test_lab_drift_open__no_tolerance__takes_nothing)
   assert_memory_equal(r, before, sizeof r);
   close_run();
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

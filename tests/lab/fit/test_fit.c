@@ -534,8 +534,3 @@ TEST(test_lab_solve_positive__not_positive__is_refused)
   assert_int_equal(lab_solve_positive(2, 2, flat, b), -1);
   assert_int_equal(lab_solve_positive(2, 2, none, b), -1);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

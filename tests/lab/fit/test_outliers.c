@@ -216,8 +216,3 @@ CASE(test_lab_outliers_put_back__after_two_takes__is_as_before)
   assert_int_equal(out.n, 0);
   assert_memory_equal(before, p, sizeof p);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

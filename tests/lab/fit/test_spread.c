@@ -463,8 +463,3 @@ TEST(test_lab_fit_spread__model_fails__says_so)
   assert_int_equal(lab_fit_spread(&problem, c.param, c.start, &got, &error), LAB_NUMERIC);
   assert_string_equal(error.text, "no model here");
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -1321,9 +1321,10 @@ TEST(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes)
   assert_close(u.rig.term[0].to, u.unknown[first + 2].value, 0, 1e-12);
 }
 
-int main(void)
+static int close_last(void **state)
 {
-  const int failed = tests_run(NULL, NULL);
   close_all();
-  return failed;
+  return 0;
 }
+
+TESTS_WITH(NULL, close_last)

@@ -174,8 +174,3 @@ TEST(test_lab_weigh_runs__all_moves__errors_that_go_on_are_not_noise)
   assert_close(noise_of_walk(0.97), 1e-4, 0, 1e-9);
   assert_between(noise_of_walk(0), 4e-4, 8e-4);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -182,8 +182,3 @@ TEST(test_lab_windowed_roughness__no_motion__is_0)
     predicted[i] = 0;
   assert_true(lab_windowed_roughness(measured, predicted, ROWS, WINDOW, sigma) == 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -711,8 +711,3 @@ CASE(test_lab_log_read__long_format_faults__are_refused)
   strcpy(format.quantity[1].column, "u [1]");
   assert_refused("h\np_bar_abs,0,8\nT_K,1,1\n", "log.csv:2:", "command u at the first instant");
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -118,6 +118,8 @@ static int close_all(void **state)
   return scratch_close(state);
 }
 
+TESTS_WITH(scratch_open, close_all)
+
 static void assert_refused(const char *group, const char *path, const char *words)
 {
   lab_error error;
@@ -310,9 +312,4 @@ TEST(test_lab_text_read__utf16_of_either_order_and_without_mark__is_read)
     assert_int_equal(seen.n, 2);
     assert_string_equal(seen.read_as, "");
   }
-}
-
-int main(void)
-{
-  return tests_run(scratch_open, close_all);
 }

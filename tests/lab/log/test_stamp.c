@@ -52,8 +52,3 @@ TEST(test_lab_stamp_read__anything_else__is_none)
       fail_msg("\"%s\" was read", bad[i]);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

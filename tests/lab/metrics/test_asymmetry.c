@@ -72,8 +72,3 @@ TEST(test_asymmetry_signed__strokes_that_cross__areas_cancel)
   assert_close(r.asymmetry, 0.05 * 2 / acos(-1) / 0.9, 1e-3, 0);
   assert_close(r.asymmetry_signed, 0, 1e-4, 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

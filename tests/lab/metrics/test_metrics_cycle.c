@@ -117,8 +117,3 @@ TEST(test_metrics__two_runs__are_kept_apart)
   assert_int_equal(metrics.n_steps, 0);
   assert_denied(LAB_METRIC_ENERGY_IN, "no cycle");
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -222,8 +222,3 @@ TEST(test_metrics__no_signal_to_set_it_against__says_so)
   record_measure();
   assert_denied(LAB_METRIC_DEAD_BAND, "no staircase");
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

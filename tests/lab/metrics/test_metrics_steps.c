@@ -296,8 +296,3 @@ TEST(test_metrics__part_of_a_stroke__says_how_much)
   assert_denied(LAB_METRIC_DURATION_RATIO, "no full stroke up");
   assert_denied(LAB_METRIC_ENERGY_IN, "no cycle");
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

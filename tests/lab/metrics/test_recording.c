@@ -50,6 +50,8 @@ static int forget_strokes(void **state)
   return scratch_close(state);
 }
 
+TESTS_WITH(measure_strokes, forget_strokes)
+
 /* What noise and sampling leave open covers the difference between the record and the model that made it. */
 TEST(test_lab_recording__measured_and_predicted__agree_within_what_is_said)
 {
@@ -211,9 +213,4 @@ TEST(test_metrics__damadics_steps__by_what_was_drawn)
   assert_close(down.metric[LAB_METRIC_T63_DOWN].value, 1.53, 0.01, 0); /* between its points, by hand */
   assert_close(down.metric[LAB_METRIC_T86_DOWN].value, 2.87, 0.02, 0);
   assert_between(down.metric[LAB_METRIC_T63_DOWN].uncertainty, 0.1, 0.4);
-}
-
-int main(void)
-{
-  return tests_run(measure_strokes, forget_strokes);
 }

@@ -83,8 +83,3 @@ TEST(test_lab_weigh_unseen__rows_that_move__weigh_less)
     assert_close(run.weight[ROWS + i], 1, 1e-3, 0);
   close_log();
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -275,8 +275,3 @@ TEST(test_lab_answer_find__u_and_set_position__what_explains_the_log_drives)
     lab_answer_free(answer);
   }
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -80,8 +80,3 @@ TEST(test_lab_bin_means__values__mean_of_each_part)
   assert_int_equal(bin[1].n, 2);
   assert_close(bin[1].mean, 6, 1e-15, 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

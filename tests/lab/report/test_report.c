@@ -97,6 +97,8 @@ static int forget_report(void **state)
   return scratch_close(state);
 }
 
+TESTS_WITH(begin_report, forget_report)
+
 static void write_report(const lab_report *told, const char *folder)
 {
   lab_figures *figures;
@@ -656,9 +658,4 @@ TEST(test_lab_report_undetermined__clauses_on_instants__are_left_out)
   strcpy(outcome.fit.undetermined, "switch_3 is at its upper bound");
   lab_report_undetermined(&s, text);
   assert_string_equal(text, "");
-}
-
-int main(void)
-{
-  return tests_run(begin_report, forget_report);
 }

@@ -142,10 +142,11 @@ TEST(test_lab_report_sentence__verdicts__what_is_missing_then_the_error)
                       "Every command acts 20.0 ms late (dead_time). The pressure sensor shows 2.0 % of the reading too "
                       "much (pressure_gain). With them the error falls from 3.00 to 1.00 times the noise.");
   report = answer(LAB_VERDICT_UNDECIDED, 3);
-  assert_string_equal(sentence_of(&report),
-                      "Something is missing, but the log does not say what. With the best candidates, dead_time, "
-                      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, as it may with "
-                      "others.");
+  assert_string_equal(
+      sentence_of(&report),
+      "Something is missing, but the log does not say what. With the best candidates, dead_time, "
+      "pressure_gain and position_lag, the error falls from 3.00 to 1.00 times the noise, as it may with "
+      "others.");
   result.after.chi2 = 4;
   assert_string_equal(sentence_of(&report),
                       "Something is missing, but the log does not say what. With the best candidates, dead_time, "
@@ -189,7 +190,8 @@ TEST(test_lab_report_sentence__search_that_was_ended__claims_nothing)
   assert_contains(sentence_of(&report), "may be wrong. The residual is 1.00 times the noise.");
   result.n_found = 0;
   result.after.chi2 = 2.3;
-  assert_contains(sentence_of(&report), "Something is missing, and there was no time to find what. The residual is 1.52");
+  assert_contains(sentence_of(&report),
+                  "Something is missing, and there was no time to find what. The residual is 1.52");
 }
 
 TEST(test_lab_report_limits__effects_scored_by_a_beginning__says_so)
@@ -411,9 +413,4 @@ TEST(test_lab_report_since__interval__gives_its_digits)
   assert_string_equal(lab_report_since(&blunt, since), " since 9.42 s (9.31 to 11.2 s)");
   assert_string_equal(lab_report_since(&late, since), " since 3620 s (3600 to 3660 s)");
   assert_string_equal(lab_report_since(NULL, since), "");
-}
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
 }

@@ -26,6 +26,8 @@ static int close_all(void **state)
   return scratch_close(state);
 }
 
+TESTS_WITH(open_all, close_all)
+
 /* Draft, and read what was written, which is `text` then. */
 static lab_rig draft_of(const char *log, const char *const *sheet, int n)
 {
@@ -263,9 +265,4 @@ TEST(test_lab_sheet_ask__answers__are_words_of_the_sheet)
   draft_of(log_path, words, answers.n);
   assert_contains(text, "moving_mass = \"5 kg\"; // sheet");
   assert_contains(text, "fail = \"open\"; // sheet");
-}
-
-int main(void)
-{
-  return tests_run(open_all, close_all);
 }

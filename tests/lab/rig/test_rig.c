@@ -548,7 +548,7 @@ TEST(test_lab_rig_write__odd_numbers_everywhere__come_back_bit_for_bit)
     *pneu_param_at(&rig.params, i) = (pneu_real)((double)info.lower + ((double)info.upper - (double)info.lower) / 3);
   }
   rig.params.supply_pressure = (pneu_real)(1e6 / 7);
-  rig.params.area = (pneu_real)(1e-3 / 7); /* a long chamber */
+  rig.params.area = (pneu_real)(1e-3 / 7);     /* a long chamber */
   if (pneu_param_find("positioner.gain") >= 0) /* which needs a position for a command */
     *pneu_param_at(&rig.params, pneu_param_find("positioner.gain")) = 0;
   rig.log.command_is_pressure = 1;
@@ -629,9 +629,4 @@ TEST(test_lab_rig_model__bad_parameter__is_named)
   rig.params.moving_mass = -1;
   assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_DATA);
   assert_contains(error.text, "moving_mass");
-}
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
 }

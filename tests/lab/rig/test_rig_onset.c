@@ -50,8 +50,3 @@ TEST(test_lab_rig_read__onset_that_is_wrong__is_refused)
                      "onset", "no earlier time");
   assert_rig_refused("onset = ( { parameter = \"dry_friction\"; since = 3; value = 4; } );", "onset", "unknown key");
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -310,8 +310,3 @@ TEST(test_lab_run_predict__terms__are_in_the_prediction)
   lab_run_close(&run);
   lab_log_free(&log);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

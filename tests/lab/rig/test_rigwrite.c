@@ -377,8 +377,3 @@ TEST(test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_rest_stay
   assert_close(*pneu_param_at(&again.params, idle), 0, 0, 0);
   assert_close(*pneu_param_at(&again.params, acts), 30, 0, 0);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -189,8 +189,3 @@ TEST(test_lab_rig_write__of_words__gives_the_same_model)
   again = write_and_read(&rig, NULL);
   assert_memory_equal(&rig.params, &again.params, sizeof rig.params);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -106,8 +106,3 @@ TEST(test_lab_tolerance_write__given_ones__are_read_again)
   assert_close(lab_tolerance(&rig, PNEU_PARAM_spring_rate), 2e4, 0, 1e-12);
   assert_close(lab_tolerance(&rig, PNEU_PARAM_dry_friction), 0, 0, 0);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -803,8 +803,3 @@ TEST(test_effects_def__each_effect__is_compared)
       fail_msg("%s is not compared with the second implementation", pneu_effect_at(e)->name);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -417,8 +417,3 @@ TEST(test_lab_response_run__air_that_began_warm__goes_on_as_it_is)
   assert_close(response.T[1], warm, 1e-6, 0);
   lab_response_free(&response);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

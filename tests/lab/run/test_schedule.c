@@ -618,8 +618,3 @@ CASE(test_lab_run_open__declared_resolution__is_that_of_the_run)
   assert_close(run.sigma[0], sqrt(noise * noise + q * q / 12), 0, 1e-12);
   lab_run_close(&run);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

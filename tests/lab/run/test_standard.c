@@ -170,8 +170,3 @@ TEST(test_fixture_trace__standard_experiment__agrees_with_the_second_implementat
     assert_between(g.p, 0, TOL(2e-4, 3e-3));
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -242,8 +242,3 @@ TEST(test_lab_variations__stick_slip__is_not_followed)
   there.model = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   check_not_followed(&here, &there);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

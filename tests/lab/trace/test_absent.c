@@ -70,8 +70,3 @@ TEST(test_lab_absent_find__leak_that_is_there__stays)
   assert_close(leak_of()->value, 0.01 * (double)rig.params.vent_area, 0, 0.05);
   close_log();
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -110,8 +110,3 @@ TEST(test_lab_apart_search__preload_set_anew__is_the_answer)
   assert_contains(bench.limitations.text[0], "The logs differ in spring_preload");
   close_logs(LOGS);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

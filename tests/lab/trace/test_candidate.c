@@ -62,8 +62,3 @@ TEST(test_lab_candidate_drop__gain_of_a_sensor__is_held_again)
   assert_close(*pneu_param_at(&h.c.u.rig.params, x->index), 0, 0, 0);
   held_close(&h);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

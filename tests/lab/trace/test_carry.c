@@ -124,8 +124,3 @@ TEST(test_lab_rivals_try__three_logs__keeps_what_carries_over)
   assert_string_equal(pneu_effect_at(c.found[0].effect)->name, "chamber_leak");
   close_logs(LOGS);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

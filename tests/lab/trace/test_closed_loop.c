@@ -483,8 +483,3 @@ CASE(test_lab_search_run__opening_that_changes_between_rows__nothing_is_missing)
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_close(result.after.in_noise[LAB_CHANNEL_X], 1, 0.08, 0);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

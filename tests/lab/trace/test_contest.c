@@ -37,8 +37,3 @@ TEST(test_lab_contest_is_better__gain_of_a_sensor__is_no_less_far_off)
   exact.best.quality.bic -= 0.2;
   assert_true(lab_contest_is_better(&exact, &tolerant));
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

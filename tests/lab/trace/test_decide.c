@@ -338,8 +338,3 @@ TEST(test_lab_values_stand_in__undecided_by_more_than_noise__they_do)
   assert_false(lab_values_stand_in(LAB_VERDICT_UNDECIDED, 2.24));
   assert_false(lab_values_stand_in(LAB_VERDICT_EFFECT, 100));
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -301,8 +301,3 @@ TEST(test_lab_free_term_where__cycle__is_told_by_period_frequency_and_amplitude)
     assert_where(&t, cases[i].want);
   }
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -245,8 +245,3 @@ TEST(test_lab_residual_periods__too_short_a_log__has_none)
   open_log(1, 10); /* too short for any cycle of its own */
   assert_true(find_cycles(r, period) > 0);
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

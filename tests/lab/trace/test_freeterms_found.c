@@ -168,9 +168,10 @@ TEST(test_lab_score_free_terms__model_full_of_terms__has_no_slots)
   lab_projection_close(&scan);
 }
 
-int main(void)
+static int close_last(void **state)
 {
-  const int failed = tests_run(NULL, NULL);
   lab_run_close(&run);
-  return failed;
+  return 0;
 }
+
+TESTS_WITH(NULL, close_last)

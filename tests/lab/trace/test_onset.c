@@ -244,8 +244,3 @@ TEST(test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on)
   free(y);
   close_log();
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -126,8 +126,3 @@ TEST(test_lab_preview_is_asked__short_or_several_or_coarse__no)
   of_run.window = 50;
   assert_false(lab_preview_is_asked(&of_run));
 }
-
-int main(void)
-{
-  return tests_run(NULL, NULL);
-}

@@ -158,8 +158,3 @@ TEST(test_lab_refit_put_simplest_first__value_that_changes__gives_way_to_odds)
   assert_false(lab_refit_is_simpler(&c[0], &c[1]));
   assert_true(lab_refit_is_simpler(&c[1], &c[0]));
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

@@ -48,8 +48,3 @@ TEST(test_lab_rivals_try__true_effects__stay_in_their_order)
   expect_effect(1, "dead_time");
   held_close(&h);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}

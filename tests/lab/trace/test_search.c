@@ -362,8 +362,3 @@ TEST(test_lab_rounds_note_way__full__has_the_last)
   assert_close(r.path[LAB_SEARCH_PATH - 1].chi2, LAB_SEARCH_PATH, 0, 0);
   assert_close(r.path[0].chi2, 0, 0, 0);
 }
-
-int main(void)
-{
-  return tests_run(scratch_open, scratch_close);
-}
