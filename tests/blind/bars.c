@@ -8,127 +8,76 @@ static int is(const char *text, const char *word)
   return strcmp(text, word) == 0;
 }
 
-static int pressure_and_position(const blind_record *r)
+unsigned blind_mark(int has, unsigned trait)
 {
-  return strncmp(r->channels, "px", 2) == 0;
+  return has ? trait : 0;
 }
 
-static int above_twice(const blind_record *r)
-{
-  return r->ratio >= 2;
-}
-
-/* ---- Which trials count ---- */
-
-static int single(const blind_record *r)
-{
-  return is(r->kind, "single") && pressure_and_position(r) && above_twice(r);
-}
-
-static int single_any_size(const blind_record *r)
-{
-  return is(r->kind, "single") && pressure_and_position(r);
-}
-
-static int pair(const blind_record *r)
-{
-  return is(r->kind, "pair") && pressure_and_position(r) && above_twice(r);
-}
-
-static int one_or_two(const blind_record *r)
-{
-  return single(r) || pair(r);
-}
-
-static int nothing(const blind_record *r)
-{
-  return is(r->kind, "nothing");
-}
-
-static int unlisted(const blind_record *r)
-{
-  return is(r->kind, "unlisted") && pressure_and_position(r) && above_twice(r);
-}
-
-static int position_only(const blind_record *r)
-{
-  return is(r->channels, "x") && !nothing(r) && above_twice(r);
-}
-
-static int pressure_only(const blind_record *r)
-{
-  return is(r->channels, "p") && !nothing(r) && above_twice(r);
-}
-
-/* ---- What is a hit ---- */
-
-static int detected(const blind_record *r)
-{
-  return r->detected;
-}
-
-static int name(const blind_record *r)
-{
-  return r->name;
-}
-
-static int stated(const blind_record *r)
-{
-  return r->stated;
-}
-
-static int family(const blind_record *r)
-{
-  return r->family;
-}
-
-static int undecided(const blind_record *r)
-{
-  return is(r->verdict, "undecided");
-}
-
-static int no_answer(const blind_record *r)
-{
-  return is(r->verdict, "timeout") || is(r->verdict, "failed");
-}
-
-static int all(const blind_record *r)
-{
-  (void)r;
-  return 1;
-}
-
-/* "Above" is: of a size of at least twice the information limit. */
-const blind_bar blind_bars[] = {
-    {"p and x, one or two missing, above: added under the right names", one_or_two, name, -1, 0},
-    {"p and x, one or two missing, above: right names, stated class, or listed below --min-gain", one_or_two, stated, 1,
-     0.95},
-    {"nothing missing: something named (false alarm)", nothing, detected, 0, 0.01},
-    {"unlisted, above: called unlisted, in the right equation", unlisted, name, 1, 0.90},
-    {"unlisted, above: so called, or listed so below --min-gain", unlisted, stated, -1, 0},
-    {"p and x, one missing, above: detected", single, detected, -1, 0},
-    {"p and x, one missing, above: right name", single, name, -1, 0},
-    {"p and x, one missing, above: right name, stated or listed", single, stated, -1, 0},
-    {"p and x, one missing, above: right name or family", single, family, -1, 0},
-    {"p and x, one missing, above: undecided", single, undecided, -1, 0},
-    {"p and x, one missing, any size: detected", single_any_size, detected, -1, 0},
-    {"p and x, one missing, any size: right name, stated or listed", single_any_size, stated, -1, 0},
-    {"p and x, two missing, above: right names, stated or listed", pair, stated, -1, 0},
-    {"x only, something missing, above: right answer or stated class", position_only, stated, -1, 0},
-    {"p only, something missing, above: right answer or stated class", pressure_only, stated, -1, 0},
-    {"no answer in the time allowed, or an error", all, no_answer, -1, 0},
+/* Traits of a trial; "above" is: of a size of at least twice the information limit. */
+enum {
+  ANY = 1 << 0,
+  NOTHING = 1 << 1,
+  SINGLE = 1 << 2, /* these with pressure and position */
+  SINGLE_ABOVE = 1 << 3,
+  PAIR_ABOVE = 1 << 4,
+  UNLISTED_ABOVE = 1 << 5,
+  X_ABOVE = 1 << 6, /* position alone, something missing */
+  P_ABOVE = 1 << 7,
+  DETECTED = 1 << 8,
+  NAME = 1 << 9,
+  STATED = 1 << 10,
+  FAMILY = 1 << 11,
+  UNDECIDED = 1 << 12,
+  NO_ANSWER = 1 << 13
 };
-const int blind_bar_count = sizeof blind_bars / sizeof blind_bars[0];
 
-blind_count blind_bar_counts(const blind_bar *bar, const blind_record *record, int n)
+static unsigned traits_of(const blind_record *r)
 {
+  const int nothing = is(r->kind, "nothing"), px = strncmp(r->channels, "px", 2) == 0, above = r->ratio >= 2;
+  return ANY | blind_mark(nothing, NOTHING) | blind_mark(px && is(r->kind, "single"), SINGLE) |
+         blind_mark(px && above && is(r->kind, "single"), SINGLE_ABOVE) |
+         blind_mark(px && above && is(r->kind, "pair"), PAIR_ABOVE) |
+         blind_mark(px && above && is(r->kind, "unlisted"), UNLISTED_ABOVE) |
+         blind_mark(is(r->channels, "x") && !nothing && above, X_ABOVE) |
+         blind_mark(is(r->channels, "p") && !nothing && above, P_ABOVE) | blind_mark(r->detected, DETECTED) |
+         blind_mark(r->name, NAME) | blind_mark(r->stated, STATED) | blind_mark(r->family, FAMILY) |
+         blind_mark(is(r->verdict, "undecided"), UNDECIDED) |
+         blind_mark(is(r->verdict, "timeout") || is(r->verdict, "failed"), NO_ANSWER);
+}
+
+static const blind_bar bars[] = {
+    {"p and x, one or two missing, above: added under the right names", SINGLE_ABOVE | PAIR_ABOVE, NAME, -1, 0},
+    {"p and x, one or two missing, above: right names, stated class, or listed below --min-gain",
+     SINGLE_ABOVE | PAIR_ABOVE, STATED, 1, 0.95},
+    {"nothing missing: something named (false alarm)", NOTHING, DETECTED, 0, 0.01},
+    {"unlisted, above: called unlisted, in the right equation", UNLISTED_ABOVE, NAME, 1, 0.90},
+    {"unlisted, above: so called, or listed so below --min-gain", UNLISTED_ABOVE, STATED, -1, 0},
+    {"p and x, one missing, above: detected", SINGLE_ABOVE, DETECTED, -1, 0},
+    {"p and x, one missing, above: right name", SINGLE_ABOVE, NAME, -1, 0},
+    {"p and x, one missing, above: right name, stated or listed", SINGLE_ABOVE, STATED, -1, 0},
+    {"p and x, one missing, above: right name or family", SINGLE_ABOVE, FAMILY, -1, 0},
+    {"p and x, one missing, above: undecided", SINGLE_ABOVE, UNDECIDED, -1, 0},
+    {"p and x, one missing, any size: detected", SINGLE, DETECTED, -1, 0},
+    {"p and x, one missing, any size: right name, stated or listed", SINGLE, STATED, -1, 0},
+    {"p and x, two missing, above: right names, stated or listed", PAIR_ABOVE, STATED, -1, 0},
+    {"x only, something missing, above: right answer or stated class", X_ABOVE, STATED, -1, 0},
+    {"p only, something missing, above: right answer or stated class", P_ABOVE, STATED, -1, 0},
+    {"no answer in the time allowed, or an error", ANY, NO_ANSWER, -1, 0},
+};
+const blind_bar_list blind_bars = {bars, sizeof bars / sizeof *bars, traits_of};
+
+blind_count blind_bar_counts(const blind_bar_list *list, int bar, const blind_record *record, int n)
+{
+  const blind_bar *b = &list->bar[bar];
   blind_count count = {0, 0};
   int i;
-  for (i = 0; i < n; i++)
-    if (bar->counts(&record[i])) {
+  for (i = 0; i < n; i++) {
+    const unsigned traits = list->traits_of(&record[i]);
+    if (traits & b->counts) {
       count.n++;
-      count.k += bar->hit(&record[i]) != 0;
+      count.k += (traits & b->hits) != 0;
     }
+  }
   return count;
 }
 

@@ -236,12 +236,11 @@ static int write_md(const blind_journal *j, lab_error *error)
 /* A line for each bar.  Returns: how many are refuted */
 static int say_bars(const blind_journal *j)
 {
-  const blind_bar *bars = series->recorded ? blind_recorded_bars : blind_bars;
-  const int n = series->recorded ? blind_recorded_bar_count : blind_bar_count;
+  const blind_bar_list *bars = series->recorded ? &blind_recorded_bars : &blind_bars;
   int i, refuted = 0;
-  for (i = 0; i < n; i++) {
-    const blind_bar *bar = &bars[i];
-    const blind_count c = blind_bar_counts(bar, j->record, j->n);
+  for (i = 0; i < bars->n; i++) {
+    const blind_bar *bar = &bars->bar[i];
+    const blind_count c = blind_bar_counts(bars, i, j->record, j->n);
     const int word = blind_bar_word(bar, c);
     refuted += bar->at_least >= 0 && word == BLIND_BAR_REFUTED;
     printf("%-70s %3d of %3d", bar->what, c.k, c.n);

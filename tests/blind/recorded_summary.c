@@ -28,149 +28,78 @@ static int has_word(const char *words, const char *word)
 
 /* ---- Bars ---- */
 
-static int all(const blind_record *r)
-{
-  (void)r;
-  return 1;
-}
-
-static int nothing(const blind_record *r)
-{
-  return is(r->kind, "nothing");
-}
-
-static int visible(const blind_record *r)
-{
-  return r->ratio >= 2;
-}
-
-static int begins(const blind_record *r)
-{
-  return r->onset_due;
-}
-
-static int from_start(const blind_record *r)
-{
-  return isnan(r->onset);
-}
-
-static int false_alarm(const blind_record *r)
-{
-  return class_is(r, BLIND_FALSE_ALARM);
-}
-
-static int right(const blind_record *r)
-{
-  return class_is(r, BLIND_RIGHT);
-}
-
-static int undecided(const blind_record *r)
-{
-  return class_is(r, BLIND_UNDECIDED);
-}
-
-static int right_or_undecided(const blind_record *r)
-{
-  return right(r) || undecided(r);
-}
-
-static int partly(const blind_record *r)
-{
-  return class_is(r, BLIND_PARTLY);
-}
-
-static int overlooked(const blind_record *r)
-{
-  return class_is(r, BLIND_OVERLOOKED);
-}
-
-static int wrong(const blind_record *r)
-{
-  return class_is(r, BLIND_WRONG);
-}
-
-static int confidently_wrong(const blind_record *r)
-{
-  return false_alarm(r) || overlooked(r) || wrong(r);
-}
-
-static int no_answer(const blind_record *r)
-{
-  return class_is(r, BLIND_NO_ANSWER);
-}
-
-static int far_due(const blind_record *r)
-{
-  return r->far_due;
-}
-
-static int far_found(const blind_record *r)
-{
-  return r->far_found;
-}
-
-static int onset_within(const blind_record *r)
-{
-  return r->onset_within;
-}
-
-static int onset_said(const blind_record *r)
-{
-  return r->onset_said;
-}
-
-static int instrument(const blind_record *r)
-{
-  return r->instrument;
-}
-
-const blind_bar blind_recorded_bars[] = {
-    {"nothing missing: something named (false alarm)", nothing, false_alarm, 0, 0.02},
-    {"all logs: right or honestly undecided", all, right_or_undecided, 1, 0.90},
-    {"all logs: confidently wrong (false alarm, overlooked, wrong)", all, confidently_wrong, 0, 0.02},
-    {"all logs: no answer in the CPU time allowed, or an error", all, no_answer, 0, 0},
-    {"all logs: right", all, right, -1, 0},
-    {"all logs: undecided", all, undecided, -1, 0},
-    {"all logs: partly right", all, partly, -1, 0},
-    {"all logs: overlooked", all, overlooked, -1, 0},
-    {"all logs: wrong", all, wrong, -1, 0},
-    {"nothing missing: right", nothing, right, -1, 0},
-    {"nothing missing: undecided", nothing, undecided, -1, 0},
-    {"something visible missing: right", visible, right, -1, 0},
-    {"something visible missing: right or undecided", visible, right_or_undecided, -1, 0},
-    {"the value far beyond its tolerance is due: found", far_due, far_found, -1, 0},
-    {"what begins within the log was named or found: the stated interval holds the instant", begins, onset_within, -1,
-     0},
-    {"all is from the start: an onset is stated", from_start, onset_said, -1, 0},
-    {"all logs: the sensors' filter named", all, instrument, -1, 0},
+/* Traits of a trial: its class, what is true of it, what was said. */
+enum {
+  RIGHT = 1 << BLIND_RIGHT,
+  UNDECIDED = 1 << BLIND_UNDECIDED,
+  PARTLY = 1 << BLIND_PARTLY,
+  FALSE_ALARM = 1 << BLIND_FALSE_ALARM,
+  OVERLOOKED = 1 << BLIND_OVERLOOKED,
+  WRONG = 1 << BLIND_WRONG,
+  NO_ANSWER = 1 << BLIND_NO_ANSWER,
+  ANY = 1 << BLIND_CLASSES,
+  NOTHING = ANY << 1,
+  VISIBLE = ANY << 2,
+  FAR_DUE = ANY << 3,
+  FAR_FOUND = ANY << 4,
+  ONSET_DUE = ANY << 5,
+  ONSET_WITHIN = ANY << 6,
+  ONSET_SAID = ANY << 7,
+  FROM_START = ANY << 8,
+  INSTRUMENT = ANY << 9
 };
-const int blind_recorded_bar_count = sizeof blind_recorded_bars / sizeof blind_recorded_bars[0];
+
+static unsigned traits_of(const blind_record *r)
+{
+  unsigned traits = ANY | blind_mark(is(r->kind, "nothing"), NOTHING) | blind_mark(r->ratio >= 2, VISIBLE) |
+                    blind_mark(r->far_due, FAR_DUE) | blind_mark(r->far_found, FAR_FOUND) |
+                    blind_mark(r->onset_due, ONSET_DUE) | blind_mark(r->onset_within, ONSET_WITHIN) |
+                    blind_mark(r->onset_said, ONSET_SAID) | blind_mark(isnan(r->onset), FROM_START) |
+                    blind_mark(r->instrument, INSTRUMENT);
+  int k;
+  for (k = 0; k < BLIND_CLASSES; k++)
+    traits |= blind_mark(class_is(r, k), 1u << k);
+  return traits;
+}
+
+static const blind_bar bars[] = {
+    {"nothing missing: something named (false alarm)", NOTHING, FALSE_ALARM, 0, 0.02},
+    {"all logs: right or honestly undecided", ANY, RIGHT | UNDECIDED, 1, 0.90},
+    {"all logs: confidently wrong (false alarm, overlooked, wrong)", ANY, FALSE_ALARM | OVERLOOKED | WRONG, 0, 0.02},
+    {"all logs: no answer in the CPU time allowed, or an error", ANY, NO_ANSWER, 0, 0},
+    {"all logs: right", ANY, RIGHT, -1, 0},
+    {"all logs: undecided", ANY, UNDECIDED, -1, 0},
+    {"all logs: partly right", ANY, PARTLY, -1, 0},
+    {"all logs: overlooked", ANY, OVERLOOKED, -1, 0},
+    {"all logs: wrong", ANY, WRONG, -1, 0},
+    {"nothing missing: right", NOTHING, RIGHT, -1, 0},
+    {"nothing missing: undecided", NOTHING, UNDECIDED, -1, 0},
+    {"something visible missing: right", VISIBLE, RIGHT, -1, 0},
+    {"something visible missing: right or undecided", VISIBLE, RIGHT | UNDECIDED, -1, 0},
+    {"the value far beyond its tolerance is due: found", FAR_DUE, FAR_FOUND, -1, 0},
+    {"what begins within the log was named or found: the stated interval holds the instant", ONSET_DUE, ONSET_WITHIN,
+     -1, 0},
+    {"all is from the start: an onset is stated", FROM_START, ONSET_SAID, -1, 0},
+    {"all logs: the sensors' filter named", ANY, INSTRUMENT, -1, 0},
+};
+const blind_bar_list blind_recorded_bars = {bars, sizeof bars / sizeof *bars, traits_of};
 
 /* Deviations are counted one by one, not log by log. */
-static const blind_bar due_bar = {"deviations beyond twice their interval: found", NULL, NULL, 1, 0.95};
-static const blind_bar wrong_bar = {"deviations stated: more than twice their interval off the truth", NULL, NULL, -1,
-                                    0};
+static const blind_bar due_bar = {"deviations beyond twice their interval: found", 0, 0, 1, 0.95};
+static const blind_bar wrong_bar = {"deviations stated: more than twice their interval off the truth", 0, 0, -1, 0};
 
-static blind_count due_count(const blind_record *r, int n)
+static void write_deviations(FILE *file, const blind_record *r, int n)
 {
-  blind_count c = {0, 0};
+  blind_count due = {0, 0}, wrong = {0, 0};
   int i;
   for (i = 0; i < n; i++) {
-    c.k += r[i].n_found;
-    c.n += r[i].n_due;
+    due.k += r[i].n_found;
+    due.n += r[i].n_due;
+    wrong.k += r[i].n_wrong;
+    wrong.n += r[i].n_said;
   }
-  return c;
-}
-
-static blind_count wrong_count(const blind_record *r, int n)
-{
-  blind_count c = {0, 0};
-  int i;
-  for (i = 0; i < n; i++) {
-    c.k += r[i].n_wrong;
-    c.n += r[i].n_said;
-  }
-  return c;
+  blind_bar_row(file, &due_bar, due);
+  blind_bar_row(file, &wrong_bar, wrong);
 }
 
 /* ---- Totals ---- */
@@ -186,16 +115,6 @@ static void write_times(FILE *file, const blind_record *record, int n, double *t
         "\nCPU time: median %.3g s, 90th percentile %.3g s, longest %.3g s (where it was stopped that is the limit). "
         "Asked for: median below 1 s, none above 30 s.\n",
         blind_quantile(time, n, 0.5), blind_quantile(time, n, 0.9), blind_quantile(time, n, 1));
-}
-
-static void write_totals(FILE *file, const blind_record *record, int n)
-{
-  int i;
-  blind_bar_header(file);
-  for (i = 0; i < blind_recorded_bar_count; i++)
-    blind_bar_row(file, &blind_recorded_bars[i], blind_bar_counts(&blind_recorded_bars[i], record, n));
-  blind_bar_row(file, &due_bar, due_count(record, n));
-  blind_bar_row(file, &wrong_bar, wrong_count(record, n));
 }
 
 /* ---- By groups ---- */
@@ -215,7 +134,7 @@ static int of_log(const blind_record *r, const char *word)
 
 static int of_effect(const blind_record *r, const char *word)
 {
-  return *word ? is(r->effect[0], word) || is(r->effect[1], word) : nothing(r);
+  return *word ? is(r->effect[0], word) || is(r->effect[1], word) : is(r->kind, "nothing");
 }
 
 static int of_beyond(const blind_record *r, const char *word)
@@ -294,8 +213,8 @@ static void write_groups(FILE *file, const blind_record *record, int n, double *
 
 static int is_miss(const blind_record *r)
 {
-  return !right(r) || r->n_found < r->n_due || r->n_wrong || (r->onset_due && !r->onset_within) ||
-         (from_start(r) && r->onset_said);
+  return !class_is(r, BLIND_RIGHT) || r->n_found < r->n_due || r->n_wrong || (r->onset_due && !r->onset_within) ||
+         (isnan(r->onset) && r->onset_said);
 }
 
 static void write_truth(FILE *file, const blind_record *r)
@@ -317,7 +236,7 @@ static void write_said(FILE *file, const blind_record *r)
     fprintf(file, " in %s", r->equation);
   if (*r->since)
     fprintf(file, " since %s", r->since);
-  if (no_answer(r))
+  if (class_is(r, BLIND_NO_ANSWER))
     fprintf(file, " %.120s", r->why);
 }
 
@@ -358,7 +277,8 @@ int blind_recorded_summary_write(FILE *file, const blind_record *record, int n, 
       "What counts as what, and what the log can show at best, is written in tests/blind/recorded_score.h and "
       "recorded_limit.h.\n\n",
       n, seed, seconds);
-  write_totals(file, record, n);
+  blind_bar_table(file, &blind_recorded_bars, record, n);
+  write_deviations(file, record, n);
   write_times(file, record, n, time);
   write_groups(file, record, n, time);
   fputs("\n## Misses, one by one\n\nAll that are not right, and those right ones of which a deviation or an onset is "

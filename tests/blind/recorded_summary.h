@@ -6,8 +6,7 @@
 #include "summary.h"
 
 /* What closeloop has to reach on logs as they are recorded. */
-extern const blind_bar blind_recorded_bars[];
-extern const int blind_recorded_bar_count;
+extern const blind_bar_list blind_recorded_bars;
 
 /* Records in the order of trials.
  * In:      seconds  of CPU that closeloop had for each

@@ -44,13 +44,6 @@ static void add(blind_count *c, int hit)
 
 /* ---- Totals ---- */
 
-void blind_bar_header(FILE *file)
-{
-  fputs("## Totals\n\nIntervals are Wilson's, 95 %; a bar is met where the whole interval meets it, \"in this sample\" "
-        "where only the share does.\n\n| what | count | share | 95 % | bar | met |\n|---|---|---|---|---|---|\n",
-        file);
-}
-
 void blind_bar_row(FILE *file, const blind_bar *bar, blind_count c)
 {
   static const char *const words[] = {"**no**", "**no**, but it may be chance", "in this sample", "yes"};
@@ -68,12 +61,19 @@ void blind_bar_row(FILE *file, const blind_bar *bar, blind_count c)
     fputs("| |\n", file);
 }
 
-static void write_totals(FILE *file, const blind_record *record, int n)
+void blind_bar_table(FILE *file, const blind_bar_list *bars, const blind_record *record, int n)
 {
   int i;
-  blind_bar_header(file);
-  for (i = 0; i < blind_bar_count; i++)
-    blind_bar_row(file, &blind_bars[i], blind_bar_counts(&blind_bars[i], record, n));
+  fputs("## Totals\n\nIntervals are Wilson's, 95 %; a bar is met where the whole interval meets it, \"in this sample\" "
+        "where only the share does.\n\n| what | count | share | 95 % | bar | met |\n|---|---|---|---|---|---|\n",
+        file);
+  for (i = 0; i < bars->n; i++)
+    blind_bar_row(file, &bars->bar[i], blind_bar_counts(bars, i, record, n));
+}
+
+static void write_totals(FILE *file, const blind_record *record, int n)
+{
+  blind_bar_table(file, &blind_bars, record, n);
   fputs("\n\"Above\": of a size of at least twice the information limit. \"Listed\": closeloop says that the effect is "
         "significant, but adds nothing, because the error would fall by less than --min-gain, 2 %.\n",
         file);

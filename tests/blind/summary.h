@@ -11,15 +11,21 @@
 /* What closeloop has to reach; the only place where thresholds stand. */
 typedef struct blind_bar {
   const char *what;
-  int (*counts)(const blind_record *r); /* whether a trial counts */
-  int (*hit)(const blind_record *r);
-  int at_least; /* 1: hits should be at least `share` of what counts; 0: at most; -1: no bar, a figure only */
+  unsigned counts, hits; /* a trial counts, or is a hit, that has one of these traits */
+  int at_least;          /* 1: hits should be at least `share` of what counts; 0: at most; -1: no bar, a figure only */
   double share;
 } blind_bar;
-extern const blind_bar blind_bars[];
-extern const int blind_bar_count;
 
-blind_count blind_bar_counts(const blind_bar *bar, const blind_record *record, int n);
+/* Those of a series, and what traits a trial of it has, a bit each. */
+typedef struct blind_bar_list {
+  const blind_bar *bar;
+  int n;
+  unsigned (*traits_of)(const blind_record *r);
+} blind_bar_list;
+extern const blind_bar_list blind_bars;
+unsigned blind_mark(int has, unsigned trait); /* the trait, or 0 */
+
+blind_count blind_bar_counts(const blind_bar_list *bars, int bar, const blind_record *record, int n);
 
 enum blind_bar_word {
   BLIND_BAR_REFUTED, /* the 95 % interval lies wholly on the wrong side */
@@ -31,8 +37,8 @@ enum blind_bar_word {
 /* How a count stands to a bar; one over nothing reaches it.  Returns: enum blind_bar_word */
 int blind_bar_word(const blind_bar *bar, blind_count count);
 
-/* The table of totals: its head, and a row. */
-void blind_bar_header(FILE *file);
+/* The table of totals: its head with the rows of all bars, and a row. */
+void blind_bar_table(FILE *file, const blind_bar_list *bars, const blind_record *record, int n);
 void blind_bar_row(FILE *file, const blind_bar *bar, blind_count count);
 
 /* Records in the order of trials.

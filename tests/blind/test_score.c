@@ -327,14 +327,14 @@ TEST(test_blind_bar_word__counts__by_share_and_interval)
   };
   size_t i;
   for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-    const blind_bar bar = {"", NULL, NULL, cases[i].at_least, cases[i].share};
+    const blind_bar bar = {"", 0, 0, cases[i].at_least, cases[i].share};
     assert_int_equal(blind_bar_word(&bar, cases[i].count), cases[i].word);
   }
 }
 
 static blind_count bar_of_stated(const blind_record *r, int n)
 {
-  return blind_bar_counts(&blind_bars[1], r, n);
+  return blind_bar_counts(&blind_bars, 1, r, n);
 }
 
 TEST(test_blind_bar_counts__right_names__counts_trials_above_twice_the_limit)
