@@ -1320,11 +1320,3 @@ TEST(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes)
   assert_close(u.unknown[first + 2].value, 0.7, 1e-3, 0);
   assert_close(u.rig.term[0].to, u.unknown[first + 2].value, 0, 1e-12);
 }
-
-static int close_last(void **state)
-{
-  close_all();
-  return 0;
-}
-
-TESTS_WITH(NULL, close_last)

@@ -44,13 +44,7 @@ static int measure_strokes(void **state)
   return 0;
 }
 
-static int forget_strokes(void **state)
-{
-  virtual_close(&logged, &run);
-  return scratch_close(state);
-}
-
-TESTS_WITH(measure_strokes, forget_strokes)
+TESTS_WITH(measure_strokes, scratch_close)
 
 /* What noise and sampling leave open covers the difference between the record and the model that made it. */
 TEST(test_lab_recording__measured_and_predicted__agree_within_what_is_said)

@@ -28,11 +28,6 @@ static void open_log(double rest)
   virtual_open(&rig, path, &seen, &run);
 }
 
-static void close_log(void)
-{
-  virtual_close(&seen, &run);
-}
-
 /* The instants of commands are not fitted there, so that more than noise is left either way. */
 TEST(test_lab_judge__unseen_log__tells_its_own_value_by_its_start)
 {
@@ -47,7 +42,6 @@ TEST(test_lab_judge__unseen_log__tells_its_own_value_by_its_start)
   assert_int_equal(own.n, 2 * (ROWS - FEW)); /* its first tenth is not judged */
   for (i = 0; i < 2 * ROWS; i++)
     assert_close(run.weight[i], 1, 0, 0);
-  close_log();
 }
 
 /* A log that rests for a quarter begins to tell after that: until its stem has moved by a tenth. */
@@ -60,7 +54,6 @@ TEST(test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved)
   assert_int_equal(lab_judge(&rig, &run, 1, &own, &error), LAB_OK);
   assert_in_range(own.n, 2 * (ROWS - 125), 2 * (ROWS - 101));
   assert_true(own.in_noise[LAB_CHANNEL_X] < 0.5 * shared.in_noise[LAB_CHANNEL_X]);
-  close_log();
 }
 
 /* By its clock a row may be off by as much as the stem moves in that time. */
@@ -81,5 +74,4 @@ TEST(test_lab_weigh_unseen__rows_that_move__weigh_less)
   assert_close(least, 1 / hypot(1, jitter * fastest / 2e-5), 0, 0.15);
   for (i = 0; i < 7; i++) /* before the first command */
     assert_close(run.weight[ROWS + i], 1, 1e-3, 0);
-  close_log();
 }

@@ -89,15 +89,7 @@ static int begin_report(void **state)
   return 0;
 }
 
-static int forget_report(void **state)
-{
-  free(page);
-  free(other);
-  virtual_close(&logged, &run[0]);
-  return scratch_close(state);
-}
-
-TESTS_WITH(begin_report, forget_report)
+TESTS_WITH(begin_report, scratch_close)
 
 static void write_report(const lab_report *told, const char *folder)
 {
@@ -499,10 +491,10 @@ TEST(test_lab_report_html__pressure_not_measured__is_said)
 {
   static lab_unknowns one;
   static lab_search_result nothing;
+  static lab_run travel;
+  static lab_log log;
   const char *path = scratch_path("travel.csv");
   lab_report told = report;
-  lab_run travel;
-  lab_log log;
   FILE *from = fopen(scratch_path("a&b.csv"), "r"), *to = fopen(path, "w");
   char line[128];
   while (fgets(line, sizeof line, from)) {
@@ -520,7 +512,6 @@ TEST(test_lab_report_html__pressure_not_measured__is_said)
   told.measured = NULL;
   assert_contains(page_of(&told, "travel"), "The model&#39;s pressure, for it was not measured");
   assert_contains(other, "\"signature\":[{\"name\":\"Pressure p\"");
-  virtual_close(&log, &travel);
 }
 
 /* ---- Noise with memory ---- */
@@ -554,10 +545,10 @@ TEST(test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it)
 {
   static lab_unknowns fitted;
   static lab_search_result outcome;
-  lab_run own;
+  static lab_run own;
+  static lab_log log;
   lab_search_options options;
   lab_report told = {0};
-  lab_log log;
   lab_unknowns after;
   int any;
   lab_search_options_default(&options);
@@ -578,7 +569,6 @@ TEST(test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it)
   assert_null(strstr(other, ">not white<"));
   assert_contains(json_of(&told, "memory"), "\"whiteness\":");
   assert_null(strstr(other, "\"white\":\tfalse"));
-  virtual_close(&log, &own);
 }
 
 /* One key, one meaning: what the refit of a candidate explains, found or not; before what is found is fitted to the

@@ -35,11 +35,6 @@ static const lab_unknown *leak_of(void)
   return &c.u.unknown[lab_unknowns_find(&c.u, pneu_param_find("chamber_leak.leak_area"))];
 }
 
-static void close_log(void)
-{
-  virtual_close(&run_log, &run);
-}
-
 /* It rests at 0, costs nothing of BIC, and its interval says how large it may be. */
 TEST(test_lab_absent_find__leak_that_is_not_there__rests)
 {
@@ -58,7 +53,6 @@ TEST(test_lab_absent_find__leak_that_is_not_there__rests)
   assert_close(fit.low[j], 0, 0, 0);
   assert_between(fit.high[j], 1e-15, largest * (double)rig.params.vent_area);
   assert_true(lab_unknown_rests(leak_of()));
-  close_log();
 }
 
 TEST(test_lab_absent_find__leak_that_is_there__stays)
@@ -68,5 +62,4 @@ TEST(test_lab_absent_find__leak_that_is_there__stays)
   assert_int_equal(lab_absent_find(&c, &any, &error), LAB_OK);
   assert_false(any || lab_unknown_rests(leak_of()));
   assert_close(leak_of()->value, 0.01 * (double)rig.params.vent_area, 0, 0.05);
-  close_log();
 }

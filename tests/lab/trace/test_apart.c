@@ -14,7 +14,7 @@ static lab_apart apart;
 static lab_error error;
 
 /* The logs of two rigs, fitted, and what differs between them. */
-static void open_logs(const second_rig *first, const second_rig *second, int n)
+static void find(const second_rig *first, const second_rig *second, int n)
 {
   const second_rig *of[LOGS] = {first, second};
   int i;
@@ -29,19 +29,6 @@ static void open_logs(const second_rig *first, const second_rig *second, int n)
   assert_int_equal(lab_unknowns_open(&rig, run, n, &u, &error), LAB_OK);
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
   assert_int_equal(lab_apart_find(&u, &apart, &error), LAB_OK);
-}
-
-static void close_logs(int n)
-{
-  int i;
-  for (i = 0; i < n; i++)
-    virtual_close(&logs[i], &run[i]);
-}
-
-static void find(const second_rig *first, const second_rig *second, int n)
-{
-  open_logs(first, second, n);
-  close_logs(n);
 }
 
 TEST(test_lab_apart_find__preload_set_anew__is_of_each_log)
@@ -90,7 +77,7 @@ TEST(test_lab_apart_search__preload_set_anew__is_the_answer)
   lab_search_options options;
   double before;
   second.spring_preload = 1.2 * first.spring_preload;
-  open_logs(&first, &second, LOGS);
+  find(&first, &second, LOGS);
   lab_search_options_default(&options);
   completed = u;
   assert_int_equal(lab_search_measure(&u, LAB_STAGE_BEFORE, &result, &error), LAB_OK);
@@ -108,5 +95,4 @@ TEST(test_lab_apart_search__preload_set_anew__is_the_answer)
   assert_between(result.after.chi2 / (double)result.after.n, 0.9, 1.1);
   assert_int_equal(bench.limitations.n, 1);
   assert_contains(bench.limitations.text[0], "The logs differ in spring_preload");
-  close_logs(LOGS);
 }

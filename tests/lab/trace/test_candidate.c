@@ -31,7 +31,6 @@ TEST(test_lab_candidate_let_go__one_value_far_off__is_found_without_its_prior)
   assert_true(fabs(h.c.u.unknown[j].value - true_supply) < fabs(held - true_supply));
   assert_close(h.c.u.unknown[j].value, true_supply, 0, 5e-3);
   assert_close(h.c.quality.strain, 5, 0, 0.05); /* it is still told as so far off */
-  held_close(&h);
 }
 
 TEST(test_lab_candidate_let_go__as_declared__keeps_all)
@@ -41,7 +40,6 @@ TEST(test_lab_candidate_let_go__as_declared__keeps_all)
   held_open(&h, &truth);
   assert_int_equal(lab_candidate_let_go(&h.c, &error), LAB_OK);
   assert_int_equal(count_let_go(), 0);
-  held_close(&h);
 }
 
 /* An instrument that is taken out of what was found is as well known as before. */
@@ -60,5 +58,4 @@ TEST(test_lab_candidate_drop__gain_of_a_sensor__is_held_again)
   assert_true(lab_unknown_is_held(x));
   assert_close(x->value, 0, 0, 0);
   assert_close(*pneu_param_at(&h.c.u.rig.params, x->index), 0, 0, 0);
-  held_close(&h);
 }

@@ -42,13 +42,6 @@ static void open_logs(const int leaks[LOGS], int n)
   assert_false(lab_is_noise(&c.quality));
 }
 
-static void close_logs(int n)
-{
-  int e;
-  for (e = 0; e < n; e++)
-    virtual_close(&logs[e], &run[e]);
-}
-
 static int is_pruned(const int leaks[LOGS], int n)
 {
   int any;
@@ -56,7 +49,6 @@ static int is_pruned(const int leaks[LOGS], int n)
   assert_int_equal(lab_carry_prune(&c, &any, &error), LAB_OK);
   assert_int_equal(any, c.n_found == 0);
   assert_int_equal(c.u.n_runs, n);
-  close_logs(n);
   return any;
 }
 
@@ -97,7 +89,6 @@ TEST(test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do)
   c.u.n_runs = 2;
   lab_unknowns_view(&c.u, 0);
   assert_between(carried() / sum, 0.6, 0.72);
-  close_logs(LOGS);
 }
 
 /* One standard error: of differences 1, 1, 1 none; of 3, 0, 0 as much as their mean; what cannot be followed is worse.
@@ -122,5 +113,4 @@ TEST(test_lab_rivals_try__three_logs__keeps_what_carries_over)
   assert_int_equal(lab_rivals_try(&c, &changed, &error), LAB_OK);
   assert_false(changed);
   assert_string_equal(pneu_effect_at(c.found[0].effect)->name, "chamber_leak");
-  close_logs(LOGS);
 }

@@ -167,11 +167,3 @@ TEST(test_lab_score_free_terms__model_full_of_terms__has_no_slots)
   assert_int_equal(n, 0);
   lab_projection_close(&scan);
 }
-
-static int close_last(void **state)
-{
-  lab_run_close(&run);
-  return 0;
-}
-
-TESTS_WITH(NULL, close_last)

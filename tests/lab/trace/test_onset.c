@@ -55,11 +55,6 @@ static void close_loop(const second_rig *first, const second_rig *later, double 
   assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, INFINITY, &all, &error), LAB_OK);
 }
 
-static void close_log(void)
-{
-  virtual_close(&log_read, &run);
-}
-
 /* The only onset is that of a parameter: it holds the truth, and the fit of its value as well. */
 static void assert_begins(const char *name, double change, double value)
 {
@@ -98,7 +93,6 @@ TEST(test_lab_search_run__leak_that_begins__is_named_since_when)
   assert_int_equal(u.rig.onset[0].param, result.found[0].param);
   assert_between(5.43, result.begin[0].low, result.begin[0].high);
   assert_true(result.begin[0].high - result.begin[0].low < 0.5);
-  close_log();
 }
 
 /* The stem is at rest as its friction rises: when it does shows at the next move only. */
@@ -115,7 +109,6 @@ TEST(test_lab_search_run__friction_that_rises__deviates_since_then)
   assert_string_equal(all.of[0].name, "dry_friction");
   assert_close(all.of[0].ratio, 1300.0 / 480, 0.05, 0);
   assert_int_equal(all.of[0].param, pneu_param_find("dry_friction"));
-  close_log();
 }
 
 TEST(test_lab_search_run__supply_that_falls__deviates_since_then)
@@ -127,7 +120,6 @@ TEST(test_lab_search_run__supply_that_falls__deviates_since_then)
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_begins("supply_pressure", 6.57, 0.8 * 4e5);
   assert_string_equal(all.of[0].name, "supply_pressure");
-  close_log();
 }
 
 TEST(test_lab_search_run__nothing_begins__has_no_onset)
@@ -136,12 +128,10 @@ TEST(test_lab_search_run__nothing_begins__has_no_onset)
   close_loop(&g, NULL, 0);
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_int_equal(u.rig.n_onsets, 0);
-  close_log();
   g.leak_area = 2e-8;
   close_loop(&g, NULL, 0);
   assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
   assert_int_equal(u.rig.n_onsets, 0);
-  close_log();
 }
 
 /* ---- From the beginning of a run ---- */
@@ -172,7 +162,6 @@ TEST(test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_mod
   assert_int_equal(onset.u.rig.onset[0].param, pneu_param_find("spring_rate"));
   assert_between(6.57, onset.begin[0].low, onset.begin[0].high);
   assert_close(onset.u.rig.onset[0].value, later.spring_rate, 0, 0.02);
-  close_log();
 }
 
 TEST(test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run)
@@ -183,7 +172,6 @@ TEST(test_lab_early_fit__nothing_begins__is_the_fit_of_the_whole_run)
   assert_int_equal(within.quality.fitted, 1);
   assert_int_equal((int)within.quality.values, 2 * ROWS);
   assert_true(lab_is_noise(&within.quality));
-  close_log();
 }
 
 TEST(test_lab_early_fit__missing_from_the_start__finds_neither)
@@ -193,7 +181,6 @@ TEST(test_lab_early_fit__missing_from_the_start__finds_neither)
   fit_early(&g, NULL, 0);
   assert_int_equal(onset.quality.fitted, 0);
   assert_false(lab_is_noise(&within.quality));
-  close_log();
 }
 
 /* Whether a leak still begins at 5 s after it was asked to act throughout. */
@@ -209,7 +196,6 @@ static int leak_begins(const second_rig *first, const second_rig *later)
   assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
   assert_int_equal(lab_onset_extend(&u, lab_unknowns_find_onset(&u, leak), 0.01, &chi2, &begin, &error), LAB_OK);
   assert_close(u.unknown[lab_unknowns_find_onset(&u, leak)].value, 2e-8, 0, 0.05);
-  close_log();
   return begin.known;
 }
 
@@ -242,5 +228,4 @@ TEST(test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on)
   check_note("the pressure shown moves by %g Pa from row to row", most);
   assert_true(most < 50);
   free(y);
-  close_log();
 }

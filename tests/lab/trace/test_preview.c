@@ -35,11 +35,6 @@ static int preview(const second_rig *first, const second_rig *later, double chan
   return done;
 }
 
-static void close_log(void)
-{
-  virtual_close(&log_read, &run);
-}
-
 /* The answer is one of the whole run, and as close to it as noise lets it. */
 static void assert_whole(void)
 {
@@ -60,7 +55,6 @@ TEST(test_lab_preview_search__leak__is_that_of_the_whole_run)
   assert_close(found.result.preview, 4.89, 0, 1e-6);
   assert_int_equal(found.result.n_path, 2);
   assert_true(found.result.path[0].chi2 > 10 * found.result.path[1].chi2);
-  close_log();
 }
 
 TEST(test_lab_preview_search__nothing_is_missing__finds_nothing)
@@ -72,7 +66,6 @@ TEST(test_lab_preview_search__nothing_is_missing__finds_nothing)
   assert_int_equal(found.best.n_found, 0);
   assert_true(found.result.preview == 0 && found.result.scores.n > 0);
   assert_int_equal(found.result.n_path, 1);
-  close_log();
 }
 
 /* After what was seen of it: the values of the beginning tell when the run leaves them, and by what. */
@@ -88,7 +81,6 @@ TEST(test_lab_preview_search__spring_that_breaks_later__is_found_from_there)
   assert_int_equal(found.best.u.rig.onset[0].param, pneu_param_find("spring_rate"));
   assert_close(found.best.u.rig.onset[0].value, later.spring_rate, 0, 0.02);
   assert_between(8.57, found.best.begin[0].low, found.best.begin[0].high);
-  close_log();
 }
 
 /* What it has seen is until when the run is as declared. */
@@ -103,7 +95,6 @@ TEST(test_lab_preview_search__much_that_begins_later__is_left_to_the_search_of_t
   assert_between(found.result.sound_until, 8.3, 8.7);
   found.result.sound_until = 0;
   assert_memory_equal(&found, &before, sizeof found);
-  close_log();
 }
 
 TEST(test_lab_preview_is_asked__short_or_several_or_coarse__no)

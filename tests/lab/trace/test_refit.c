@@ -68,7 +68,6 @@ TEST(test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way)
   lab_unknowns_forget_slopes(&whole.u);
   lab_unknowns_forget_slopes(&folded.u);
   lab_nuisance_close(&nuisance);
-  virtual_close(&recorded, &run);
 }
 
 /* A clock is known to 5 ms: one that is 60 ms off is missing from what was declared, one that is 6 ms off is not. */
@@ -88,7 +87,6 @@ TEST(test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_toleran
     assert_int_equal(lab_candidate_take_instruments(&c, &any, &error), LAB_OK);
     assert_int_equal(any, i);
     assert_int_equal(c.n_found, i);
-    virtual_close(&recorded, &run);
   }
   assert_int_equal(c.found[0].effect, pneu_effect_find("channel_skew"));
   assert_close((double)*pneu_param_at(&c.u.rig.params, c.found[0].param), 0.06, 0, 0.02);
@@ -127,7 +125,6 @@ TEST(test_lab_candidate_stage__bent_values__are_left_behind)
   assert_close(staged.u.unknown[lab_unknowns_find(&staged.u, leak)].value, 2e-8, 0, 0.05);
   assert_close(staged.u.unknown[lab_unknowns_find(&staged.u, pneu_param_find("dead_volume"))].value, g.dead_volume, 0,
                0.05);
-  virtual_close(&recorded, &run);
 }
 
 /* A fitted candidate in which a parameter changes. */

@@ -29,7 +29,6 @@ TEST(test_lab_rivals_try__second_best_effect__gives_way_to_the_true_one)
   assert_true(lab_is_noise(&h.c.quality));
   assert_close(h.c.u.unknown[lab_unknowns_find(&h.c.u, h.c.found[0].param)].value, truth.area_slope, 0, 0.1);
   assert_true(h.c.found[0].explained > 0.9);
-  held_close(&h);
 }
 
 TEST(test_lab_rivals_try__true_effects__stay_in_their_order)
@@ -46,5 +45,4 @@ TEST(test_lab_rivals_try__true_effects__stay_in_their_order)
   assert_false(changed);
   expect_effect(0, "area_variation");
   expect_effect(1, "dead_time");
-  held_close(&h);
 }

@@ -54,11 +54,6 @@ static void open_log(const second_rig *g, const double *u_cmd, int held)
   }
 }
 
-static void close_log(void)
-{
-  virtual_close(&log_read, &run);
-}
-
 /* Run the loop on such a log; where it is held, with what deviates. */
 static void run_loop(const second_rig *g, const double *u_cmd, int held)
 {
@@ -71,7 +66,6 @@ static void run_loop(const second_rig *g, const double *u_cmd, int held)
   assert_int_equal(lab_search_run(&u, &options, &result, &error), LAB_OK);
   if (held)
     assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, INFINITY, &all, &error), LAB_OK);
-  close_log();
 }
 
 /* The same of brisk commands, and what it names first. */
@@ -143,7 +137,6 @@ TEST(test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says)
     check_note("%g of %g", fit.high[j] - fit.low[j], wide);
     assert_close(fit.high[j] - fit.low[j], wide, 0, 0.1);
   }
-  close_log();
 }
 
 /* Whether an effect was found first, or is told as one that the log cannot tell from what was. */
