@@ -36,7 +36,7 @@ static int predict(const lab_unknowns *u, const lab_rig *model, const double *th
   lab_drive d;
   int status = lab_drive_open(u, model, theta, e, &d, error);
   if (status == LAB_OK)
-    status = lab_run_predict_episodes(&u->run[e], d.episode, d.n, d.early, u->tol, r, error);
+    status = lab_run_predict(&u->run[e], d.episode, d.n, d.early, u->tol, r, error);
   lab_drive_close(&d);
   return status;
 }

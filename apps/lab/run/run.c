@@ -252,8 +252,8 @@ static int respond(const lab_run *e, const lab_staging *s, double tol, lab_respo
   return lab_response_run(s->of[0], &task, response, error);
 }
 
-int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
-                             double *y, lab_error *error)
+int lab_run_predict(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol, double *y,
+                    lab_error *error)
 {
   lab_response response;
   lab_staging s;
@@ -378,10 +378,4 @@ int lab_run_vary(const lab_run *e, const lab_run_case *base, const lab_run_case 
   cast_close(&c, n_cases + 1);
   free(of);
   return status;
-}
-
-int lab_run_predict(const lab_run *e, const lab_rig *rig, const double *early, double tol, double *y, lab_error *error)
-{
-  const lab_episode whole = {0, rig};
-  return lab_run_predict_episodes(e, &whole, 1, early, tol, y, error);
 }

@@ -37,21 +37,17 @@ typedef struct lab_run {
 int lab_run_open(const lab_rig *rig, const lab_log *log, size_t run, lab_run *e, lab_error *error);
 void lab_run_close(lab_run *e);
 
-/* What a model predicts.
- * In:      rig     its parameters and free terms, in the place of those of the experiment's
- *          early   [s] n_instants: how much before its row each change of command happened; NULL: not at all
- *          tol     local error of the stepper
- * Out:     y       n_channels * n values, SI, channel by channel
- * Returns: LAB_OK; LAB_NUMERIC, also for parameters out of bounds; LAB_WORLD. */
-int lab_run_predict(const lab_run *e, const lab_rig *rig, const double *early, double tol, double *y, lab_error *error);
-
 enum { LAB_EPISODES_MAX = 9 };
 
-/* The same where the model changes on the way.
- * In:      episode  n >= 1 of them, in the order of time; the first acts from the beginning, whatever its time
- */
-int lab_run_predict_episodes(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol,
-                             double *y, lab_error *error);
+/* What a model predicts, which may change on the way.
+ * In:      episode  n >= 1 of them, in the order of time, with parameters and free terms in the place of those of the
+ *                   experiment's; the first acts from the beginning, whatever its time
+ *          early    [s] n_instants: how much before its row each change of command happened; NULL: not at all
+ *          tol      local error of the stepper
+ * Out:     y        n_channels * n values, SI, channel by channel
+ * Returns: LAB_OK; LAB_NUMERIC, also for parameters out of bounds; LAB_WORLD. */
+int lab_run_predict(const lab_run *e, const lab_episode *episode, int n, const double *early, double tol, double *y,
+                    lab_error *error);
 
 /* What a run is predicted from. */
 typedef struct lab_run_case {

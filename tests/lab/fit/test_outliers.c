@@ -24,7 +24,7 @@ static void measure(void)
 {
   double y[2 * ROWS], early[2] = {0, 0};
   int i;
-  assert_int_equal(lab_run_predict(&run, &rig, early, u.tol, y, &error), LAB_OK);
+  assert_int_equal(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, early, u.tol, y, &error), LAB_OK);
   for (i = 0; i < ROWS; i++) {
     p[i] = y[i] + 0.2 * sigma_p * fixture_normal(&seed);
     x[i] = y[ROWS + i] + 0.2 * sigma_x * fixture_normal(&seed);

@@ -91,7 +91,7 @@ static void open_empty(void)
 static void measure_run(const lab_rig *truth, int k, const double early[SWITCHES])
 {
   double y[2 * ROWS];
-  assert_int_equal(lab_run_predict(&run[k], truth, early, u.tol, y, &error), LAB_OK);
+  assert_int_equal(lab_run_predict(&run[k], &(lab_episode){0, truth}, 1, early, u.tol, y, &error), LAB_OK);
   memcpy(p + k * ROWS, y, ROWS * sizeof *y);
   memcpy(x + k * ROWS, y + ROWS, ROWS * sizeof *y);
 }
@@ -498,7 +498,7 @@ TEST(test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_
   open_alternating(8);
   for (k = 0; k < run[1].n_instants; k++)
     early[k] = 0.3 * spacing;
-  assert_int_equal(lab_run_predict(&run[1], &rig, early, u.tol, y, &error), LAB_OK);
+  assert_int_equal(lab_run_predict(&run[1], &(lab_episode){0, &rig}, 1, early, u.tol, y, &error), LAB_OK);
   memcpy(p + ROWS, y, ROWS * sizeof *y);
   memcpy(x + ROWS, y + ROWS, ROWS * sizeof *y);
   lab_unknowns_values(&u, theta);

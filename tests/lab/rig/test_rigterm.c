@@ -304,7 +304,7 @@ TEST(test_lab_run_predict__terms__are_in_the_prediction)
   scratch_text("log.csv", "t [s],u [1],p [Pa]\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n");
   assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log, &error), LAB_OK);
   assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
-  assert_int_equal(lab_run_predict(&run, &rig, NULL, 1e-8, y, &error), LAB_OK);
+  assert_int_equal(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, NULL, 1e-8, y, &error), LAB_OK);
   for (i = 1; i < 4; i++)
     assert_close(y[i] - y[0], slope * i, 1e-3, 1e-6);
   lab_run_close(&run);

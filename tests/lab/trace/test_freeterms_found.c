@@ -53,7 +53,7 @@ static void measure(const pneu_term *term, uint64_t seed)
     truth.n_terms = 1;
     truth.term[0] = *term;
   }
-  assert_int_equal(lab_run_predict(&run, &truth, NULL, 1e-8, y, &error), LAB_OK);
+  assert_int_equal(lab_run_predict(&run, &(lab_episode){0, &truth}, 1, NULL, 1e-8, y, &error), LAB_OK);
   for (i = 0; i < ROWS; i++) {
     p[i] = y[i] + sigma_p * fixture_normal(&seed);
     x[i] = y[ROWS + i] + sigma_x * fixture_normal(&seed);

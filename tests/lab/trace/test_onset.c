@@ -220,7 +220,7 @@ TEST(test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on)
   *pneu_param_at(&rig.params, pneu_param_find("pressure_lag.pressure_time")) = (pneu_real)0.05;
   assert_int_equal(lab_unknowns_add_onset(&u, pneu_param_find("supply_pressure"), from, 3e5, &error), LAB_OK);
   rig.onset[rig.n_onsets++] = u.rig.onset[0];
-  assert_int_equal(lab_run_predict(&run, &rig, NULL, 1e-6, y, &error), LAB_OK);
+  assert_int_equal(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, NULL, 1e-6, y, &error), LAB_OK);
   for (i = 1; i < run.n; i++)
     if (fabs(log_read.value[LAB_CHANNEL_TIME][i] - from) < 0.2)
       most = fmax(most, fabs(y[i] - y[i - 1]));
