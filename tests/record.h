@@ -4,6 +4,7 @@
 #define TESTS_RECORD_H
 
 #include "fixture.h"
+#include "words.h"
 
 #include "../apps/lab/metrics/metrics.h"
 
@@ -62,8 +63,7 @@ static inline void record_noise(double sigma_p, double sigma_x)
 
 static inline void record_measure(void)
 {
-  lab_error error;
-  assert_int_equal(lab_metrics_measure(&record, &metrics, &error), LAB_OK);
+  succeed(lab_metrics_measure(&record, &metrics, &error));
 }
 
 static inline const lab_metric *metric_of(int index)

@@ -9,8 +9,8 @@
 #include "../apps/lab/log/log.h"
 #include "../apps/lab/rig/rig.h"
 #include "../apps/lab/run/run.h"
-#include "check.h"
 #include "second/rig.h"
+#include "words.h"
 
 /* Choked flow, noise of 320 Pa and 20 um. */
 static inline second_rig virtual_rig(uint64_t seed)
@@ -93,11 +93,10 @@ static inline void virtual_declare(lab_rig *rig)
 /* Read a log of one run and open it.  In/out: log, run  static; what they held before is closed */
 static inline void virtual_open(const lab_rig *rig, const char *path, lab_log *log, lab_run *run)
 {
-  lab_error error;
   lab_run_close(run);
   lab_log_free(log);
-  if (lab_log_read(path, &rig->log, 101325, log, &error) || lab_run_open(rig, log, 0, run, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_log_read(path, &rig->log, 101325, log, &error));
+  succeed(lab_run_open(rig, log, 0, run, &error));
 }
 
 #endif

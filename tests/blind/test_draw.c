@@ -6,8 +6,6 @@
 #include "../../apps/lab/rig/rigkeys.h"
 #include "limit.h"
 
-static lab_error error;
-
 static blind_trial draw(int number)
 {
   blind_trial t;
@@ -126,7 +124,7 @@ TEST(test_blind_draw__any_rig__makes_its_whole_stroke)
     size_t i;
     g.step = 1e-4;
     g.position_noise = g.position_range = 0;
-    assert_int_equal(blind_simulate(&g, &t.fit, t.spacing, &rows, &error), LAB_OK);
+    succeed(blind_simulate(&g, &t.fit, t.spacing, &rows, &error));
     for (i = 0; i < rows.n; i++)
       high = fmax(high, rows.x[i]);
     check_note("trial %d", k);
@@ -180,8 +178,8 @@ TEST(test_blind_write_logs__twice__same_bytes)
   blind_trial t = draw(3);
   char a[600], b[600];
   t.step = 1e-4;
-  assert_int_equal(blind_write_logs(&t, scratch_path("a"), &error), LAB_OK);
-  assert_int_equal(blind_write_logs(&t, scratch_path("b"), &error), LAB_OK);
+  succeed(blind_write_logs(&t, scratch_path("a"), &error));
+  succeed(blind_write_logs(&t, scratch_path("b"), &error));
   snprintf(a, sizeof a, "%s/fit.csv", scratch_path("a"));
   snprintf(b, sizeof b, "%s/fit.csv", scratch_path("b"));
   assert_same_file(a, b);
@@ -198,18 +196,16 @@ static void assert_readable(int number)
   t.step = 1e-4;
   t.fit.end = t.holdout.end = 0.5; /* enough to be read */
   check_note("trial %d", number);
-  assert_int_equal(blind_write_logs(&t, scratch_path("read"), &error), LAB_OK);
+  succeed(blind_write_logs(&t, scratch_path("read"), &error));
   snprintf(path, sizeof path, "%s/rig.cfg", scratch_path("read"));
-  if (lab_rig_read(path, &rig, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_rig_read(path, &rig, &error));
   assert_close(rig.params.spring_rate, t.declared.spring_rate, 0, 1e-9);
   assert_close(rig.params.viscous_friction + rig.params.damping, t.declared.viscous, 0, 1e-9);
   assert_close(rig.params.fill_area, t.declared.fill_area, 0, 1e-9);
   assert_close(rig.noise[LAB_CHANNEL_P], t.declared.pressure_noise, 0, 1e-5);
   assert_int_equal(rig.n_fit, BLIND_FITTED);
   snprintf(path, sizeof path, "%s/fit.csv", scratch_path("read"));
-  if (lab_log_read(path, &rig.log, ambient, &log, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_log_read(path, &rig.log, ambient, &log, &error));
   assert_int_equal(log.n, second_samples(t.fit.end, t.spacing));
   assert_int_equal(!!log.value[LAB_CHANNEL_P], !!(t.channels & BLIND_P));
   assert_int_equal(!!log.value[LAB_CHANNEL_X], !!(t.channels & BLIND_X));
@@ -244,7 +240,7 @@ TEST(test_blind_limit__position_bias__is_somewhat_above_that_of_the_mean)
   const blind_trial t = draw_with("position_bias", BLIND_P | BLIND_X);
   const double n = (double)second_samples(t.fit.end, t.spacing), mean = 5 * t.base.position_noise / sqrt(n);
   double size, statistic;
-  assert_int_equal(blind_limit(&t, 0, &size, &statistic, &error), LAB_OK);
+  succeed(blind_limit(&t, 0, &size, &statistic, &error));
   assert_between(size / mean, 1, 3);
   assert_close(statistic, 25 * t.missing[0].size * t.missing[0].size / (size * size), 0, 1e-6);
 }
@@ -253,9 +249,9 @@ TEST(test_blind_limit__other_size__is_the_same)
 {
   blind_trial t = draw_with("chamber_leak", BLIND_P | BLIND_X);
   double size[2], statistic;
-  assert_int_equal(blind_limit(&t, 0, &size[0], &statistic, &error), LAB_OK);
+  succeed(blind_limit(&t, 0, &size[0], &statistic, &error));
   t.missing[0].size = 50 * size[0];
-  assert_int_equal(blind_limit(&t, 0, &size[1], &statistic, &error), LAB_OK);
+  succeed(blind_limit(&t, 0, &size[1], &statistic, &error));
   assert_close(size[1], size[0], 0, 0.05);
 }
 
@@ -265,8 +261,8 @@ TEST(test_blind_limit__dead_time__grows_with_the_spacing_of_rows)
   blind_trial t = draw_with("dead_time", BLIND_P | BLIND_X);
   double fine, coarse, statistic;
   t.spacing = 4e-3;
-  assert_int_equal(blind_limit(&t, 0, &fine, &statistic, &error), LAB_OK);
+  succeed(blind_limit(&t, 0, &fine, &statistic, &error));
   t.spacing = 4e-2;
-  assert_int_equal(blind_limit(&t, 0, &coarse, &statistic, &error), LAB_OK);
+  succeed(blind_limit(&t, 0, &coarse, &statistic, &error));
   assert_between(coarse / fine, 3, 100);
 }

@@ -3,8 +3,6 @@
 
 #include "recorded_limit.h"
 
-static lab_error error;
-
 static blind_recorded draw(int number)
 {
   blind_recorded r;
@@ -253,7 +251,7 @@ static blind_fine run_at(const blind_recorded *r, double step)
 {
   const second_rig g = blind_recorded_later(r, BLIND_ALL);
   blind_fine fine;
-  assert_int_equal(blind_run_recorded(r, &g, &g, step, &fine, &error), LAB_OK);
+  succeed(blind_run_recorded(r, &g, &g, step, &fine, &error));
   return fine;
 }
 
@@ -316,7 +314,7 @@ static blind_log record(const blind_recorded *r, double (*of)(double t))
   fine.rows.T = fine.rows.x + fine.rows.n;
   for (i = 0; i < fine.rows.n; i++)
     fine.rows.p[i] = fine.rows.x[i] = of((double)i * fine.spacing);
-  assert_int_equal(blind_spoil(r, &fine, &log, &error), LAB_OK);
+  succeed(blind_spoil(r, &fine, &log, &error));
   blind_fine_free(&fine);
   return log;
 }
@@ -499,7 +497,7 @@ TEST(test_blind_write_recorded__many__are_logs_with_their_channels)
     r.end = 2;
     r.t.step = 1e-4;
     check_note("trial %d", k);
-    assert_int_equal(blind_write_recorded(&r, scratch_path("recorded"), &rows, &error), LAB_OK);
+    succeed(blind_write_recorded(&r, scratch_path("recorded"), &rows, &error));
     snprintf(path, sizeof path, "%s/rig.cfg", scratch_path("recorded"));
     rig = scratch_read(path);
     snprintf(path, sizeof path, "%s/fit.csv", scratch_path("recorded"));
@@ -541,7 +539,7 @@ TEST(test_blind_recorded_visible__area__is_known_by_the_tolerance_of_mass_and_vo
   double bound;
   r.off[area] = 1.05;
   memset(r.told, 0, sizeof r.told);
-  assert_int_equal(blind_recorded_visible(&r, &v, &error), LAB_OK);
+  succeed(blind_recorded_visible(&r, &v, &error));
   bound = 0.05 / 1.05 / blind_values[volume].tolerance;
   bound = bound * bound + pow(0.05 / 1.05 / blind_values[mass].tolerance, 2);
   assert_between(v.value[area], 0, 1.1 * bound);
@@ -554,13 +552,13 @@ TEST(test_blind_recorded_visible__noise_and_converter__hide)
   blind_recorded r = draw(plain_number());
   blind_visible fine, noisy, coarse;
   r.bits = 14;
-  assert_int_equal(blind_recorded_visible(&r, &fine, &error), LAB_OK);
+  succeed(blind_recorded_visible(&r, &fine, &error));
   r.bits = 3;
-  assert_int_equal(blind_recorded_visible(&r, &coarse, &error), LAB_OK);
+  succeed(blind_recorded_visible(&r, &coarse, &error));
   r.bits = 14;
   r.t.declared.pressure_noise *= 100;
   r.t.declared.position_noise *= 100;
-  assert_int_equal(blind_recorded_visible(&r, &noisy, &error), LAB_OK);
+  succeed(blind_recorded_visible(&r, &noisy, &error));
   assert_between(coarse.value[friction], 0, 0.1 * fine.value[friction]);
   assert_between(noisy.value[friction], 0, 0.1 * fine.value[friction]);
 }

@@ -6,7 +6,6 @@
 #include "recorded_score.h"
 #include "recorded_summary.h"
 
-static lab_error error;
 static blind_record record;
 static blind_visible visible;
 
@@ -297,7 +296,7 @@ TEST(test_blind_answer_read__deviations_and_onset__are_taken)
       " \"declared\": 200, \"found\": 150, \"ci95\": [140, 160], \"ratio\": 0.75, \"beyond\": true},"
       " {\"parameter\": \"vent_restriction\", \"declared\": 0, \"found\": -0.06, \"ci95\": [-0.07, -0.05],"
       " \"ratio\": null, \"beyond\": false}]}";
-  assert_int_equal(blind_answer_read(scratch_text("report.json", report), &answer, &error), LAB_OK);
+  succeed(blind_answer_read(scratch_text("report.json", report), &answer, &error));
   assert_string_equal(answer.condition, "deviates");
   assert_close(answer.found[0].since.t, 3.5, 0, 0);
   assert_close(answer.found[0].since.high, 4, 0, 0);
@@ -379,14 +378,14 @@ TEST(test_blind_prepare__same_trial__keeps_its_files)
   blind_draw_recorded(1, 0, 1u << BLIND_POSITIONER, &r);
   r.n_moves = 3;
   r.end = 2;
-  assert_int_equal(blind_prepare(&r, scratch_path("kept"), &rows, &first, &error), LAB_OK);
+  succeed(blind_prepare(&r, scratch_path("kept"), &rows, &first, &error));
   snprintf(path, sizeof path, "%s/fit.csv", scratch_path("kept"));
   assert_int_equal(unlink(path), 0);
-  assert_int_equal(blind_prepare(&r, scratch_path("kept"), &again, &second, &error), LAB_OK);
+  succeed(blind_prepare(&r, scratch_path("kept"), &again, &second, &error));
   assert_int_equal(access(path, R_OK), -1);
   assert_int_equal(again, rows);
   assert_close(second.value[0], first.value[0], 0, 1e-8);
   r.drift[0] = 0.1;
-  assert_int_equal(blind_prepare(&r, scratch_path("kept"), &again, &second, &error), LAB_OK);
+  succeed(blind_prepare(&r, scratch_path("kept"), &again, &second, &error));
   assert_int_equal(access(path, R_OK), 0);
 }

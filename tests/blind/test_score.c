@@ -7,7 +7,6 @@
 #include "stats.h"
 #include "summary.h"
 
-static lab_error error;
 static blind_record record;
 
 /* ---- Reports ---- */
@@ -25,7 +24,7 @@ static const char report[] =
 
 TEST(test_blind_answer_read__whole_report__every_field_is_taken)
 {
-  assert_int_equal(blind_answer_read(scratch_text("report.json", report), &answer, &error), LAB_OK);
+  succeed(blind_answer_read(scratch_text("report.json", report), &answer, &error));
   assert_string_equal(answer.verdict, "effect");
   assert_int_equal(answer.n_found, 1);
   assert_string_equal(answer.found[0].effect, "laminar_leak");
@@ -46,8 +45,7 @@ TEST(test_blind_answer_read__whole_report__every_field_is_taken)
 
 TEST(test_blind_answer_read__no_verdict__is_refused)
 {
-  assert_int_equal(blind_answer_read(scratch_text("a.json", "{\"found\": []}"), &answer, &error), LAB_DATA);
-  assert_contains(error.text, "no verdict");
+  assert_fails(blind_answer_read(scratch_text("a.json", "{\"found\": []}"), &answer, &error), LAB_DATA, "no verdict");
   assert_int_equal(blind_answer_read(scratch_text("b.json", "{\"verdict\": "), &answer, &error), LAB_DATA);
 }
 
@@ -147,7 +145,7 @@ TEST(test_blind_score__own_candidate__has_its_rank_among_effects)
 {
   const double limit[] = {1};
   const blind_trial t = trial_with(BLIND_SINGLE, "chamber_leak");
-  assert_int_equal(blind_answer_read(scratch_text("report.json", report), &answer, &error), LAB_OK);
+  succeed(blind_answer_read(scratch_text("report.json", report), &answer, &error));
   blind_score(&t, limit, &answer, &record);
   assert_int_equal(record.own_rank, 2);
   assert_close(record.own_statistic, 80.5, 0, 0);
@@ -174,20 +172,17 @@ TEST(test_blind_ask__report_failure_and_endless_run__are_answers)
   snprintf(script, sizeof script,
            "#!/bin/sh\n[ \"$2\" = %s/fit.csv ] || exit 9\ncat >\"$4/report.json\" <<'EOF'\n%s\nEOF\n", folder,
            "{\"verdict\": \"none\"}");
-  assert_int_equal(blind_ask(fake("good", script), folder, 10, &answer, &error), LAB_OK);
+  succeed(blind_ask(fake("good", script), folder, 10, &answer, &error));
   assert_string_equal(answer.verdict, "none");
-  assert_int_equal(
-      blind_ask(fake("bad", "#!/bin/sh\necho 'log.csv:3: bad, very' >&2\nexit 1\n"), folder, 10, &answer, &error),
-      LAB_OK);
+  succeed(blind_ask(fake("bad", "#!/bin/sh\necho 'log.csv:3: bad, very' >&2\nexit 1\n"), folder, 10, &answer, &error));
   assert_string_equal(answer.verdict, "failed");
   assert_string_equal(answer.words, "log.csv:3: bad; very;");
-  assert_int_equal(blind_ask(fake("slow", "#!/bin/sh\nsleep 2\nexit 1\n"), folder, 1, &answer, &error), LAB_OK);
+  succeed(blind_ask(fake("slow", "#!/bin/sh\nsleep 2\nexit 1\n"), folder, 1, &answer, &error));
   assert_string_equal(answer.verdict, "failed"); /* it waited, as on a busy machine, and computed nothing */
-  assert_int_equal(blind_ask(fake("endless", "#!/bin/sh\nwhile :; do :; done\n"), folder, 1, &answer, &error), LAB_OK);
+  succeed(blind_ask(fake("endless", "#!/bin/sh\nwhile :; do :; done\n"), folder, 1, &answer, &error));
   assert_string_equal(answer.verdict, "timeout");
-  assert_int_equal(
-      blind_ask(fake("polite", "#!/bin/sh\ntrap 'exit 4' XCPU\nwhile :; do :; done\n"), folder, 1, &answer, &error),
-      LAB_OK);
+  succeed(
+      blind_ask(fake("polite", "#!/bin/sh\ntrap 'exit 4' XCPU\nwhile :; do :; done\n"), folder, 1, &answer, &error));
   assert_string_equal(answer.verdict, "timeout");
   assert_int_equal(blind_ask("/no/such/program", folder, 1, &answer, &error), LAB_WORLD);
 }
@@ -243,24 +238,23 @@ TEST(test_blind_journal__stopped_in_a_line__goes_on_after_the_last_whole_one)
   const blind_record first = sample_record(3, "none", ""), second = sample_record(1, "effect", "chamber_leak");
   blind_journal j;
   FILE *file;
-  assert_int_equal(blind_journal_open(&j, path, "# key", 10, 0, &error), LAB_OK);
-  assert_int_equal(blind_journal_add(&j, &first, &error), LAB_OK);
-  assert_int_equal(blind_journal_add(&j, &second, &error), LAB_OK);
+  succeed(blind_journal_open(&j, path, "# key", 10, 0, &error));
+  succeed(blind_journal_add(&j, &first, &error));
+  succeed(blind_journal_add(&j, &second, &error));
   blind_journal_close(&j);
   file = fopen(path, "a");
   fputs("7,single,px,R1-", file);
   fclose(file);
-  assert_int_equal(blind_journal_open(&j, path, "# key", 10, 0, &error), LAB_OK);
+  succeed(blind_journal_open(&j, path, "# key", 10, 0, &error));
   assert_int_equal(j.n, 2);
   assert_true(blind_journal_has(&j, 3) && blind_journal_has(&j, 1) && !blind_journal_has(&j, 7));
   blind_journal_sort(&j);
   assert_int_equal(j.record[0].trial, 1);
   blind_journal_close(&j);
-  assert_int_equal(blind_journal_open(&j, path, "# key", 3, 0, &error),
-                   LAB_OK); /* fewer trials: 3 is not one of them */
+  succeed(blind_journal_open(&j, path, "# key", 3, 0, &error)); /* fewer trials: 3 is not one of them */
   assert_int_equal(j.n, 1);
   blind_journal_close(&j);
-  assert_int_equal(blind_journal_open(&j, path, "# other", 10, 0, &error), LAB_OK);
+  succeed(blind_journal_open(&j, path, "# other", 10, 0, &error));
   assert_int_equal(j.n, 0);
   blind_journal_close(&j);
 }

@@ -3,8 +3,6 @@
 
 #include "../../apps/study/products.h"
 
-static lab_error error;
-
 static study *read_study(void)
 {
   static study s;

@@ -1,5 +1,3 @@
-#include "../check.h"
-
 #include <ctype.h>
 #include <omp.h>
 #include <stdlib.h>
@@ -8,8 +6,6 @@
 #include "../../apps/study/conclusions.h"
 #include "../../apps/study/paper.h"
 #include "../words.h"
-
-static lab_error error;
 
 static void read_study(study *s)
 {
@@ -220,7 +216,7 @@ static void compare_speeds(const lab_rig *rig, int actuator, int law)
   speed_pair pair;
   int i;
   assert_string_equal(rig->name, c.actuator.key);
-  assert_int_equal(speeds_measure(&rig->params, &laws, &pair, &error), LAB_OK);
+  succeed(speeds_measure(&rig->params, &laws, &pair, &error));
   for (i = 0; i < SPEED_POINTS; i += 10) {
     const double x = speed_position(i) * c.actuator.travel;
     check_note("%s, %s, x = %g m", rig->name, paper_laws[law].key, x);
@@ -251,7 +247,7 @@ TEST(test_speeds_measure__returned_work__is_that_of_the_spring)
   speed_pair pair;
   pneu_params_default(&p);
   p.dry_friction = 0;
-  assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_OK);
+  succeed(speeds_measure(&p, &laws, &pair, &error));
   assert_close(pair.returned, 0.5 * p.spring_rate * (0.03 * 0.03 - 0.01 * 0.01), 0, 5e-3);
 }
 
@@ -349,7 +345,7 @@ TEST(test_load_cycle__friction_and_margin__are_all_that_is_lost)
     const double air = ((p.supply_pressure + p.ambient_pressure) * swept + p.supply_pressure * p.dead_volume) /
                        (p.gas_constant * p.ambient_temperature);
     check_note("%s", paper_laws[law].key);
-    assert_int_equal(load_cycle_run(&p, &laws, margin, &cycle, &error), LAB_OK);
+    succeed(load_cycle_run(&p, &laws, margin, &cycle, &error));
     assert_close(cycle.work_up + cycle.work_down, (full * (1 - 2 * margin) - 2 * p.dry_friction) * p.stroke, 0, 5e-3);
     assert_close(cycle.air, air, 0, 1e-3);
   }
@@ -361,8 +357,7 @@ TEST(test_load_cycle__load_too_heavy__says_where_it_stays)
   pneu_params p;
   load_cycle cycle;
   pneu_params_default(&p);
-  assert_int_equal(load_cycle_run(&p, &laws, -0.01, &cycle, &error), LAB_NUMERIC);
-  assert_contains(error.text, "stays at x = 0 m");
+  assert_fails(load_cycle_run(&p, &laws, -0.01, &cycle, &error), LAB_NUMERIC, "stays at x = 0 m");
 }
 
 /* ---- The table ---- */
@@ -404,7 +399,7 @@ static void make_tables(const study *s, int threads, table made[CONCLUSION_TABLE
   finding *found;
   int i;
   omp_set_num_threads(threads);
-  assert_int_equal(conclusions_try(s, &found, &error), LAB_OK);
+  succeed(conclusions_try(s, &found, &error));
   omp_set_num_threads(before);
   for (i = 0; i < CONCLUSION_TABLES; i++)
     conclusions_table(s, found, i, &made[i]);
@@ -495,8 +490,7 @@ TEST(test_conclusions_try__parameters_out_of_bounds__says_which_actuator_and_law
   finding *found;
   read_study(&s);
   s.actuator[1].params.area = -1;
-  assert_int_equal(conclusions_try(&s, &found, &error), LAB_DATA);
-  assert_contains(error.text, "isothermal, paper");
+  assert_fails(conclusions_try(&s, &found, &error), LAB_DATA, "isothermal, paper");
   assert_contains(error.text, "37-13");
   assert_contains(error.text, "area");
   free(found);

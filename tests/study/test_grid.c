@@ -3,8 +3,6 @@
 
 #include "../../apps/study/grid.h"
 
-static lab_error error;
-
 /* Two actuators, of which the second is the subject, in two laws of the chamber and one of flow. */
 static study *made_up(void)
 {
@@ -47,7 +45,7 @@ TEST(test_study_make__orders_and_scopes__files)
                                {{"cell.csv", "n,g,i", STUDY_BY_CELL, STUDY_WHOLE, 0},
                                 {"actuator", "n,g,i", STUDY_BY_ACTUATOR, STUDY_ACTUATOR_FILE, 0},
                                 {"row.csv", "n,g,i", STUDY_BY_ROW, STUDY_WHOLE, 0}}};
-  assert_int_equal(study_make(made_up(), &tables, &error), LAB_OK);
+  succeed(study_make(made_up(), &tables, &error));
   assert_file("cell.csv", "n,g,i\na,isothermal,0\na,isothermal,1\na,energy,0\na,energy,1\n"
                           "b,isothermal,0\nb,isothermal,1\nb,energy,0\nb,energy,1\nb,energy,2\n");
   assert_file("actuator_a.csv", "n,g,i\na,isothermal,0\na,energy,0\na,isothermal,1\na,energy,1\n");
@@ -67,7 +65,7 @@ TEST(test_study_make__one_law_of_the_subject__one_cell)
 {
   const study_tables tables = {
       {STUDY_SUBJECT, STUDY_ONE_LAW}, one_row, {{"c", "n,x", STUDY_BY_CELL, STUDY_CELL_FILE, 3}}};
-  assert_int_equal(study_make(made_up(), &tables, &error), LAB_OK);
+  succeed(study_make(made_up(), &tables, &error));
   assert_file("c_b_isothermal_paper.csv", "n,x\nb,0.333\n");
 }
 
@@ -83,8 +81,7 @@ TEST(test_study_each__several_fail__first_in_order_is_told)
   const study_grid grid = {STUDY_ALL, STUDY_EVERY_LAW};
   int i;
   for (i = 0; i < 50; i++) {
-    assert_int_equal(study_each(made_up(), &grid, fail_later, NULL, &error), LAB_NUMERIC);
-    assert_contains(error.text, "a, energy, paper");
+    assert_fails(study_each(made_up(), &grid, fail_later, NULL, &error), LAB_NUMERIC, "a, energy, paper");
     assert_contains(error.text, "cell 1");
   }
 }
@@ -105,7 +102,7 @@ TEST(test_study_each__twin_and_gas_laws__cells)
   s->n_printed = 1; /* b is the twin of a */
   s->subject = 0;
   s->n_flow = 2;
-  assert_int_equal(study_each(s, &twins, count, n, &error), LAB_OK);
+  succeed(study_each(s, &twins, count, n, &error));
   assert_int_equal(n[0], 1);
   assert_int_equal(n[1], 2);
   assert_int_equal(n[2], 11);

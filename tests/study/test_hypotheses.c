@@ -5,8 +5,6 @@
 
 #include "../../apps/study/hypotheses.h"
 
-static lab_error error;
-
 static void read_study(study *s)
 {
   succeed(study_read("study/hypotheses.cfg", s, &error));
@@ -95,7 +93,7 @@ TEST(test_hypotheses__air_process_with_the_bench_set_in_place__closed_form)
     lab_asymmetry r;
     check_note("%s", s.actuator[a].name);
     hypothesis_without(H6_AIR_PROCESS, &p, &laws);
-    assert_int_equal(stroke_measure(&p, &p, &laws, &r, &error), LAB_OK);
+    succeed(stroke_measure(&p, &p, &laws, &r, &error));
     assert_close(r.asymmetry_signed, exponential_area(rise) - exponential_area(fall), 1e-3, 0);
   }
 }
@@ -118,7 +116,7 @@ static void check_symmetric_air(const lab_rig *rig)
   double slowing;
   hypothesis_without(H6_AIR_PROCESS, &p, &laws);
   hypothesis_without(H4_BENCH_OFFSET, &p, &laws);
-  assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_OK);
+  succeed(speeds_measure(&p, &laws, &pair, &error));
   slowing = ((double)p.supply_pressure - rising_pressure(&p, speed_position(0))) /
             ((double)p.supply_pressure - rising_pressure(&p, speed_position(SPEED_POINTS - 1)));
   assert_true(slowing > 2);
@@ -133,7 +131,7 @@ static void check_constant_load(const lab_rig *rig)
   pneu_laws laws = rig->laws;
   speed_pair pair;
   hypothesis_without(H1_RATE, &p, &laws);
-  assert_int_equal(speeds_measure(&p, &laws, &pair, &error), LAB_OK);
+  succeed(speeds_measure(&p, &laws, &pair, &error));
   assert_close(speed_max(&pair.up) / speed_min(&pair.up), 1, 0.03, 0);
   assert_close(speed_max(&pair.down) / speed_min(&pair.down), 1, 0.03, 0);
   assert_true(fabs(pair.shape.duration_ratio - 1) > 0.1);

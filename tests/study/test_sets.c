@@ -7,8 +7,6 @@
 #include "../../apps/study/sets.h"
 #include "../../apps/study/table.h"
 
-static lab_error error;
-
 #define SET(name, more)                                                                                                \
   "{ name = \"" name "\"; rig = \"damadics-servomotor-static-step.cfg\"; title = \"T " name                            \
   "\"; folder = \"f\"; judged = \"position\"; unit = \"mm\";"                                                          \
@@ -327,13 +325,13 @@ TEST(test_sets_left__slow_wave__correlated_at_lag_1)
              i < 50 ? sin(0.1 * i) : (i % 2 ? 1.0 : -1.0));
   succeed(table_load_file(scratch_text("left.csv", text), &t, &error));
   assert_int_equal(sets_left_runs(&t), 2);
-  assert_int_equal(sets_left_of(&t, 1, "p", &left, &error), LAB_OK);
+  succeed(sets_left_of(&t, 1, "p", &left, &error));
   assert_int_equal(left.n, 50);
   assert_between(left.lag1, 0.9, 1.0);
-  assert_int_equal(sets_left_of(&t, 2, "p", &left, &error), LAB_OK);
+  succeed(sets_left_of(&t, 2, "p", &left, &error));
   assert_close(left.lag1, -0.98, 1e-9, 0);
   assert_close(left.rms, 1, 1e-12, 0);
-  assert_int_equal(sets_left_of(&t, 2, "T", &left, &error), LAB_OK);
+  succeed(sets_left_of(&t, 2, "T", &left, &error));
   assert_int_equal(left.n, 0);
   table_close(&t);
 }

@@ -3,7 +3,6 @@
 
 #include "../../apps/study/study.h"
 
-static lab_error error;
 static study s;
 
 /* A whole file; each row can be replaced. */
@@ -82,8 +81,7 @@ TEST(test_study_read__bad_keys__are_refused)
   int i;
   for (i = 0; i < (int)(sizeof cases / sizeof *cases); i++) {
     check_note("%s", cases[i].instead);
-    assert_int_equal(study_read(file_with(cases[i].key, cases[i].instead), &s, &error), LAB_DATA);
-    assert_contains(error.text, ".cfg");
+    assert_fails(study_read(file_with(cases[i].key, cases[i].instead), &s, &error), LAB_DATA, ".cfg");
     assert_contains(error.text, cases[i].words);
   }
 }
@@ -94,15 +92,12 @@ TEST(test_study_read__path_too_long__is_refused)
   char path[2 * STUDY_PATH_TEXT], text[3 * STUDY_PATH_TEXT];
   memset(path, 'a', sizeof path);
   path[sizeof path - 1] = 0;
-  assert_int_equal(study_read(path, &s, &error), LAB_DATA);
-  assert_contains(error.text, "path is too long");
+  assert_fails(study_read(path, &s, &error), LAB_DATA, "path is too long");
   path[STUDY_PATH_TEXT - 1] = 0;
   snprintf(text, sizeof text, "actuators = ( \"%.*s\" );", STUDY_PATH_TEXT - 1, path);
-  assert_int_equal(study_read(file_with("actuators", text), &s, &error), LAB_DATA);
-  assert_contains(error.text, "path is too long");
+  assert_fails(study_read(file_with("actuators", text), &s, &error), LAB_DATA, "path is too long");
   path[STUDY_PATH_TEXT / 2] = 0;
-  assert_int_equal(study_read(path, &s, &error), LAB_DATA);
-  assert_contains(error.text, "there is no such file");
+  assert_fails(study_read(path, &s, &error), LAB_DATA, "there is no such file");
 }
 
 TEST(test_study_save__table__is_written_and_noted)
@@ -113,10 +108,10 @@ TEST(test_study_save__table__is_written_and_noted)
   table_open(&t, "a");
   table_row(&t, "g", 7.0);
   s.saved = NULL;
-  assert_int_equal(study_save(&s, "first.csv", &t, &error), LAB_OK);
+  succeed(study_save(&s, "first.csv", &t, &error));
   s.saved = &saved;
-  assert_int_equal(study_save(&s, "one.csv", &t, &error), LAB_OK);
-  assert_int_equal(study_save(&s, "two.csv", &t, &error), LAB_OK);
+  succeed(study_save(&s, "one.csv", &t, &error));
+  succeed(study_save(&s, "two.csv", &t, &error));
   assert_string_equal(saved.names, "one.csv two.csv");
   assert_true(scratch_exists(scratch_path("first.csv")));
   t.failed = 1;

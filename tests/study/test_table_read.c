@@ -3,13 +3,10 @@
 
 #include "../../apps/study/study.h"
 
-static lab_error error;
-
 static void assert_refused(const char *text, const char *words)
 {
   table t;
-  assert_int_equal(table_load_file(scratch_text("t.csv", text), &t, &error), LAB_DATA);
-  assert_contains(error.text, "t.csv");
+  assert_fails(table_load_file(scratch_text("t.csv", text), &t, &error), LAB_DATA, "t.csv");
   assert_contains(error.text, words);
   table_close(&t);
 }
@@ -17,9 +14,7 @@ static void assert_refused(const char *text, const char *words)
 TEST(test_table_load_file__quotes_and_numbers__are_read)
 {
   table t;
-  assert_int_equal(
-      table_load_file(scratch_text("t.csv", "name,value [m],note\n\"a, \"\"b\"\"\",1.5,x\nc,,y\n"), &t, &error),
-      LAB_OK);
+  succeed(table_load_file(scratch_text("t.csv", "name,value [m],note\n\"a, \"\"b\"\"\",1.5,x\nc,,y\n"), &t, &error));
   assert_int_equal(table_rows(&t), 2);
   assert_string_equal(table_text(&t, 0, "name"), "a, \"b\"");
   assert_close(table_number(&t, 0, "value"), 1.5, 0, 0);
@@ -31,7 +26,7 @@ TEST(test_table_load_file__quotes_and_numbers__are_read)
 TEST(test_table_load_file__column_that_is_missing__is_empty)
 {
   table t;
-  assert_int_equal(table_load_file(scratch_text("t.csv", "name,value\na,1\n"), &t, &error), LAB_OK);
+  succeed(table_load_file(scratch_text("t.csv", "name,value\na,1\n"), &t, &error));
   assert_int_equal(table_column(&t, "val"), -1);
   assert_string_equal(table_text(&t, 0, "val"), "");
   assert_true(isnan(table_number(&t, 0, "val")));
@@ -47,8 +42,7 @@ TEST(test_table_load_file__row_of_other_length__is_refused)
 TEST(test_table_load_file__no_file__is_refused)
 {
   table t;
-  assert_int_equal(table_load_file(scratch_path("nothere.csv"), &t, &error), LAB_DATA);
-  assert_contains(error.text, "there is no such file");
+  assert_fails(table_load_file(scratch_path("nothere.csv"), &t, &error), LAB_DATA, "there is no such file");
   table_close(&t);
 }
 
@@ -58,7 +52,7 @@ TEST(test_table_load__results_folder__is_where_it_looks)
   table t;
   scratch_text("t.csv", "a\n7\n");
   snprintf(s.results, sizeof s.results, "%s", scratch_folder);
-  assert_int_equal(table_load(&s, "t.csv", &t, &error), LAB_OK);
+  succeed(table_load(&s, "t.csv", &t, &error));
   assert_close(table_number(&t, 0, "a"), 7, 0, 0);
   table_close(&t);
 }

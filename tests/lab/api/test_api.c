@@ -5,7 +5,6 @@
 
 static const char folder[] = "study/guides/leak/";
 
-static lab_error error;
 static lab_api_answer answer;
 static lab_text_given rig, fit, holdout;
 
@@ -80,7 +79,7 @@ TEST(test_lab_api_closeloop__same_files__same_texts)
   json = program(arguments, "report.json");
   model = scratch_read(scratch_path("model.cfg"));
   residual = scratch_read(scratch_path("residual.csv"));
-  assert_int_equal(lab_api_closeloop(&request, &answer, &error), LAB_OK);
+  succeed(lab_api_closeloop(&request, &answer, &error));
   drop_times(json);
   drop_times(answer.json);
   assert_string_equal(answer.json, json);
@@ -112,7 +111,7 @@ TEST(test_lab_api_stop__at_first_word__ends_without_answer)
   assert_contains(error.text, "stopped");
   assert_true(told > 0);
   request.on_progress = NULL; /* the next call is not stopped */
-  assert_int_equal(lab_api_closeloop(&request, &answer, &error), LAB_OK);
+  succeed(lab_api_closeloop(&request, &answer, &error));
   lab_api_free_answer(&answer);
 }
 
@@ -152,13 +151,13 @@ TEST(test_lab_api_simulate__log_and_step__as_the_program)
   char arguments[512], *want, *csv;
   snprintf(arguments, sizeof arguments, "simulate %srig.cfg %sfit.csv --out %s", folder, folder, scratch_path("s.csv"));
   want = program(arguments, "s.csv");
-  assert_int_equal(lab_api_simulate(&rig, &fit, &csv, &error), LAB_OK);
+  succeed(lab_api_simulate(&rig, &fit, &csv, &error));
   assert_string_equal(csv, want);
   lab_api_free(csv);
   free(want);
   snprintf(arguments, sizeof arguments, "simulate %srig.cfg --step --out %s", folder, scratch_path("s.csv"));
   want = program(arguments, "s.csv");
-  assert_int_equal(lab_api_simulate(&rig, NULL, &csv, &error), LAB_OK);
+  succeed(lab_api_simulate(&rig, NULL, &csv, &error));
   assert_string_equal(csv, want);
   lab_api_free(csv);
   free(want);
@@ -172,7 +171,7 @@ TEST(test_lab_api_draft__log_and_sheet__as_the_program)
   snprintf(arguments, sizeof arguments, "closeloop --init %sfit.csv --sheet '%s' '%s' --out %s", folder, sheet[0],
            sheet[1], scratch_path("d.cfg"));
   want = program(arguments, "d.cfg");
-  assert_int_equal(lab_api_draft(&fit, sheet, 2, &drafted, &error), LAB_OK);
+  succeed(lab_api_draft(&fit, sheet, 2, &drafted, &error));
   assert_contains(drafted, "bench_set");
   assert_string_equal(strchr(drafted, '\n'), strchr(want, '\n')); /* the first line names the log */
   lab_api_free(drafted);

@@ -1,12 +1,12 @@
 /* Noise with memory: its innovations against a dense covariance matrix, and its estimate from noise of known colour. */
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/base/colour.h"
 
 enum { DENSE = 24, N = 1600 };
 
 static double y[N];
-static lab_error error;
 
 /* Noise of a deviation about a level, on a ramp. */
 static void fill(lab_colour c, double sigma, double ramp, uint64_t seed)
@@ -101,7 +101,7 @@ static lab_colour estimate(int rows, double *scale)
   int k, n = N / rows;
   for (k = 0; k < n; k++)
     rest[k] = (lab_stretch){y + k * rows, (size_t)rows};
-  assert_int_equal(lab_colour_estimate(rest, n, &c, scale, &error), LAB_OK);
+  succeed(lab_colour_estimate(rest, n, &c, scale, &error));
   return c;
 }
 
@@ -228,11 +228,11 @@ TEST(test_lab_colour_estimate__few_values__says_nothing)
   lab_colour c;
   double scale = 3;
   fill((lab_colour){0.9, 1}, 2, 0, 2);
-  assert_int_equal(lab_colour_estimate(&rest, 1, &c, &scale, &error), LAB_OK);
+  succeed(lab_colour_estimate(&rest, 1, &c, &scale, &error));
   assert_close(c.memory, 0, 0, 0);
   rest.n = 300;
-  assert_int_equal(lab_colour_estimate(&rest, 1, &c, &scale, &error), LAB_OK);
+  succeed(lab_colour_estimate(&rest, 1, &c, &scale, &error));
   assert_true(c.memory > 0.5);
-  assert_int_equal(lab_colour_estimate(&rest, 0, &c, &scale, &error), LAB_OK);
+  succeed(lab_colour_estimate(&rest, 0, &c, &scale, &error));
   assert_close(c.memory, 0, 0, 0);
 }

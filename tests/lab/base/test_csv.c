@@ -3,7 +3,6 @@
 
 #include "../../../apps/lab/base/csv.h"
 
-static lab_error error;
 static lab_csv csv;
 
 static void open_text(const char *text)
@@ -15,9 +14,9 @@ static void open_text(const char *text)
 static void next_row(int cells)
 {
   int more;
-  assert_int_equal(lab_csv_line(&csv, &more, &error), LAB_OK);
+  succeed(lab_csv_line(&csv, &more, &error));
   assert_true(more);
-  assert_int_equal(lab_csv_cut(&csv, &error), LAB_OK);
+  succeed(lab_csv_cut(&csv, &error));
   assert_int_equal(csv.n, cells);
 }
 
@@ -30,7 +29,7 @@ static void assert_cell(int i, const char *text)
 static void assert_no_more(void)
 {
   int more;
-  assert_int_equal(lab_csv_line(&csv, &more, &error), LAB_OK);
+  succeed(lab_csv_line(&csv, &more, &error));
   assert_false(more);
 }
 
@@ -79,10 +78,9 @@ TEST(test_lab_csv_cut__quote_that_does_not_end__is_refused_with_its_line)
     snprintf(text, sizeof text, "a\n%s", bad[i]);
     open_text(text);
     next_row(1);
-    assert_int_equal(lab_csv_line(&csv, &more, &error), LAB_OK);
+    succeed(lab_csv_line(&csv, &more, &error));
     assert_int_equal(lab_csv_cut(&csv, &error), LAB_DATA);
-    assert_int_equal(lab_csv_fail_in(&csv, &error), LAB_DATA);
-    assert_contains(error.text, "t.csv:2: a quote");
+    assert_fails(lab_csv_fail_in(&csv, &error), LAB_DATA, "t.csv:2: a quote");
     lab_csv_close(&csv);
   }
 }
@@ -125,11 +123,11 @@ TEST(test_lab_csv_is_over__blank_lines_to_the_end__are_nothing)
 {
   int more;
   open_text("\na\n \n\t\r\n");
-  assert_int_equal(lab_csv_line(&csv, &more, &error), LAB_OK);
+  succeed(lab_csv_line(&csv, &more, &error));
   assert_false(lab_csv_is_over(&csv));
   next_row(1);
   assert_false(lab_csv_is_over(&csv));
-  assert_int_equal(lab_csv_line(&csv, &more, &error), LAB_OK);
+  succeed(lab_csv_line(&csv, &more, &error));
   assert_true(lab_csv_is_over(&csv));
   lab_csv_close(&csv);
 }
@@ -159,8 +157,8 @@ TEST(test_lab_csv_line__as_long_as_may_be_and_longer__is_told_apart)
   lab_csv_close(&csv);
   memcpy(text + LAB_CSV_LINE, "7\r\n", 4);
   open_text(text);
-  assert_int_equal(lab_csv_line(&csv, &more, &error), LAB_DATA);
-  assert_contains(error.text, "t.csv:1: expected a line of at most 65536 bytes, found 65537");
+  assert_fails(lab_csv_line(&csv, &more, &error), LAB_DATA,
+               "t.csv:1: expected a line of at most 65536 bytes, found 65537");
   lab_csv_close(&csv);
   free(text);
 }

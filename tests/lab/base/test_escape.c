@@ -12,8 +12,6 @@
 #include "../../../apps/lab/base/csv.h"
 #include "../../../apps/lab/rig/rig.h"
 
-static lab_error error;
-
 #define LONG_NAME                                                                                                      \
   "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef"   \
   "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef"   \
@@ -283,7 +281,7 @@ static char *document(cJSON *root)
   size_t size;
   FILE *file = open_memstream(&text, &size);
   assert_non_null(file);
-  assert_int_equal(lab_json_write(file, root, "a test", &error), LAB_OK);
+  succeed(lab_json_write(file, root, "a test", &error));
   fclose(file);
   return text;
 }

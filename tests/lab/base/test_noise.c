@@ -1,5 +1,6 @@
 /* How noisy a channel is: noise of known size, steps of converters, gaps, too few values. */
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/base/noise.h"
 
@@ -9,9 +10,8 @@ static double y[N];
 
 static double noise_of(const double *value, size_t n)
 {
-  lab_error error;
   double noise;
-  assert_int_equal(lab_noise_estimate(value, n, &noise, &error), LAB_OK);
+  succeed(lab_noise_estimate(value, n, &noise, &error));
   return noise;
 }
 

@@ -3,7 +3,6 @@
 
 #include "../../../apps/lab/base/outfile.h"
 
-static lab_error error;
 static lab_outfile out;
 static char path[512], part[520]; /* of the file in use, and of what is not whole of it */
 
@@ -41,18 +40,18 @@ TEST(test_lab_out_close__good_disk__puts_the_file_in_place)
 TEST(test_lab_out_open__while_writing__leaves_the_old_file)
 {
   use(scratch_text("old.csv", "old\n"));
-  assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
+  succeed(lab_out_open(&out, path, &error));
   fputs("new\n", out.file);
   fflush(out.file);
   assert_content(path, "old\n");
-  assert_int_equal(lab_out_close(&out, &error), LAB_OK);
+  succeed(lab_out_close(&out, &error));
   assert_content(path, "new\n");
 }
 
 TEST(test_lab_out_abandon__half_written__leaves_the_old_file_alone)
 {
   use(scratch_text("kept.csv", "old\n"));
-  assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
+  succeed(lab_out_open(&out, path, &error));
   fputs("half", out.file);
   assert_true(scratch_exists(part));
   lab_out_abandon(&out);
@@ -63,13 +62,13 @@ TEST(test_lab_out_abandon__half_written__leaves_the_old_file_alone)
 TEST(test_lab_out_end__status_of_who_wrote__decides)
 {
   use(scratch_text("ended.csv", "old\n"));
-  assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
+  succeed(lab_out_open(&out, path, &error));
   fputs("new\n", out.file);
   assert_int_equal(lab_out_end(&out, LAB_NUMERIC, &error), LAB_NUMERIC);
   assert_content(path, "old\n");
-  assert_int_equal(lab_out_open(&out, path, &error), LAB_OK);
+  succeed(lab_out_open(&out, path, &error));
   fputs("new\n", out.file);
-  assert_int_equal(lab_out_end(&out, LAB_OK, &error), LAB_OK);
+  succeed(lab_out_end(&out, LAB_OK, &error));
   assert_content(path, "new\n");
 }
 
@@ -138,11 +137,10 @@ TEST(test_lab_out_close__full_disk__is_the_worlds_fault)
 TEST(test_lab_out_close__full_disk_in_the_middle__is_the_worlds_fault)
 {
   int i;
-  assert_int_equal(lab_out_open(&out, scratch_device("full", "/dev/full"), &error), LAB_OK);
+  succeed(lab_out_open(&out, scratch_device("full", "/dev/full"), &error));
   for (i = 0; i < 100000; i++)
     fputs("0123456789\n", out.file);
-  assert_int_equal(lab_out_close(&out, &error), LAB_WORLD);
-  assert_contains(error.text, "full: cannot be written: No space left on device");
+  assert_fails(lab_out_close(&out, &error), LAB_WORLD, "full: cannot be written: No space left on device");
 }
 
 TEST(test_lab_out_close__device__is_written_in_place)
@@ -155,21 +153,21 @@ TEST(test_lab_out_close__device__is_written_in_place)
 
 TEST(test_lab_out_open__no_path__is_standard_output)
 {
-  assert_int_equal(lab_out_open(&out, NULL, &error), LAB_OK);
+  succeed(lab_out_open(&out, NULL, &error));
   assert_ptr_equal(out.file, stdout);
-  assert_int_equal(lab_out_close(&out, &error), LAB_OK);
+  succeed(lab_out_close(&out, &error));
   assert_true(printf("%s", "") == 0); /* still open */
-  assert_int_equal(lab_out_open(&out, NULL, &error), LAB_OK);
+  succeed(lab_out_open(&out, NULL, &error));
   lab_out_abandon(&out);
 }
 
 TEST(test_lab_make_folder__nested_or_there__is_made)
 {
   use(scratch_path("x/y/z/"));
-  assert_int_equal(lab_make_folder(path, &error), LAB_OK);
+  succeed(lab_make_folder(path, &error));
   assert_true(scratch_exists(path));
-  assert_int_equal(lab_make_folder(path, &error), LAB_OK);
-  assert_int_equal(lab_make_folder("/", &error), LAB_OK);
+  succeed(lab_make_folder(path, &error));
+  succeed(lab_make_folder("/", &error));
 }
 
 TEST(test_lab_make_folder__file_of_that_name__is_refused)

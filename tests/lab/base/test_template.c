@@ -1,10 +1,8 @@
 /* apps/lab/base/template: from values to text. */
-#include "../../check.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/base/json.h"
 #include "../../../apps/lab/base/template.h"
-
-static lab_error error;
 
 /* What a template makes of values in JSON; to be freed. */
 static char *filled(const char *template, const char *values)
@@ -14,7 +12,7 @@ static char *filled(const char *template, const char *values)
   size_t size;
   FILE *file = open_memstream(&text, &size);
   assert_non_null(object);
-  assert_int_equal(lab_template_write(file, template, object, &error), LAB_OK);
+  succeed(lab_template_write(file, template, object, &error));
   fclose(file);
   cJSON_Delete(object);
   return text;

@@ -13,8 +13,6 @@
 #include "../../../apps/lab/base/interrupt.h"
 #include "../../../apps/lab/base/text.h"
 
-static lab_error error;
-
 /* ---- List ---- */
 
 enum { ENTRIES = 8 };
@@ -169,8 +167,8 @@ TEST(test_lab_fleet_list__zero_byte__is_refused)
 {
   static const char bytes[] = "rig,log\nr.cfg,\0.csv\n";
   lab_fleet_list list;
-  assert_int_equal(lab_fleet_list_open(&list, scratch_bytes("list.csv", bytes, sizeof bytes - 1), &error), LAB_DATA);
-  assert_contains(error.text, "list.csv:2");
+  assert_fails(lab_fleet_list_open(&list, scratch_bytes("list.csv", bytes, sizeof bytes - 1), &error), LAB_DATA,
+               "list.csv:2");
   lab_fleet_list_close(&list);
 }
 
@@ -182,7 +180,7 @@ static int check_list(const char *text, int *n)
     status = lab_fleet_list_check(&list, n, &error);
   if (status == LAB_OK) { /* back at the beginning */
     int more;
-    assert_int_equal(lab_fleet_list_next(&list, &entry[0], &more, &error), LAB_OK);
+    succeed(lab_fleet_list_next(&list, &entry[0], &more, &error));
     assert_true(more);
   }
   lab_fleet_list_close(&list);
@@ -232,7 +230,7 @@ TEST(test_lab_done__written__reads_back)
   const char *folder = scratch_path("press-1");
   lab_done got;
   assert_false(lab_done_read(folder, &got));
-  assert_int_equal(lab_done_write(folder, &want, &error), LAB_OK);
+  succeed(lab_done_write(folder, &want, &error));
   assert_true(lab_done_read(folder, &got));
   assert_true(got.key == want.key);
   assert_int_equal(got.extent, want.extent);
@@ -252,7 +250,7 @@ TEST(test_lab_done__torn__is_not_there)
   lab_done got;
   char *whole;
   size_t i, size;
-  assert_int_equal(lab_done_write(scratch_path("torn"), &want, &error), LAB_OK);
+  succeed(lab_done_write(scratch_path("torn"), &want, &error));
   whole = scratch_read(scratch_path("torn/.done"));
   size = strlen(whole);
   for (i = 0; i <= size; i++) {
@@ -292,7 +290,7 @@ static void add_line(lab_index *index, const char *name, const char *row, int ex
   strcpy(done.outcome.row, row);
   done.extent = extent;
   done.outcome.status = status;
-  assert_int_equal(lab_index_add(index, name, &done, &error), LAB_OK);
+  succeed(lab_index_add(index, name, &done, &error));
 }
 
 /* The worst first: by verdict, effects by how much of the error they explain, then in the order of the list. */
@@ -315,8 +313,7 @@ TEST(test_lab_index__all_verdicts__worst_first)
   add_line(&index, "odd", "unlisted,unlisted force over x,x = 1 .. 2 mm,,2,1,,,,,,,,,,,,,,,0,odd", LAB_WRITE_JSON,
            LAB_OK);
   add_line(&index, "torn", "error,,,,,,,,,,,,,,,,,,,,,a.csv:3: torn", LAB_WRITE_JSON, LAB_DATA);
-  assert_int_equal(lab_index_write(&index, "lists/hall 2.csv", &(lab_trends){0}, scratch_path("indexed"), &error),
-                   LAB_OK);
+  succeed(lab_index_write(&index, "lists/hall 2.csv", &(lab_trends){0}, scratch_path("indexed"), &error));
   lab_index_free(&index);
   page = scratch_read(scratch_path("indexed/index.html"));
   for (i = 0, last = page; i < sizeof order / sizeof *order; i++) {

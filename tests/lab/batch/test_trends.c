@@ -6,7 +6,6 @@
 #include "../../../apps/lab/base/outfile.h"
 #include "../../../apps/lab/batch/trends.h"
 
-static lab_error error;
 static lab_history history;
 static lab_trends trends;
 
@@ -32,9 +31,9 @@ static void add(const char *rig, int day, const char *json)
   line.day = DAYS + day;
   snprintf(text, sizeof text, "{%s}", json);
   snprintf(folder, sizeof folder, "%s", scratch_path("line"));
-  assert_int_equal(lab_make_folder(folder, &error), LAB_OK);
+  succeed(lab_make_folder(folder, &error));
   scratch_text("line/report.json", text);
-  assert_int_equal(lab_history_add(&history, &line, folder, &error), LAB_OK);
+  succeed(lab_history_add(&history, &line, folder, &error));
 }
 
 /* A report of one parameter. */
@@ -52,7 +51,7 @@ static void add_value(const char *rig, int day, const char *name, double value)
 static void find(void)
 {
   lab_history_sort(&history);
-  assert_int_equal(lab_trends_find(&history, &trends, &error), LAB_OK);
+  succeed(lab_trends_find(&history, &trends, &error));
 }
 
 /* ---- What is taken up ---- */
@@ -82,12 +81,11 @@ CASE(test_lab_history__half_a_report__is_an_error)
   lab_fleet_entry line = {0};
   char folder[400];
   snprintf(folder, sizeof folder, "%s", scratch_path("line"));
-  assert_int_equal(lab_make_folder(folder, &error), LAB_OK);
+  succeed(lab_make_folder(folder, &error));
   scratch_text("line/report.json", "{\"verdict\":");
-  assert_int_equal(lab_history_add(&history, &line, folder, &error), LAB_OK); /* no date: nobody asks */
+  succeed(lab_history_add(&history, &line, folder, &error)); /* no date: nobody asks */
   strcpy(line.date, "2026-01-02");
-  assert_int_equal(lab_history_add(&history, &line, folder, &error), LAB_DATA);
-  assert_contains(error.text, "no whole report");
+  assert_fails(lab_history_add(&history, &line, folder, &error), LAB_DATA, "no whole report");
 }
 
 /* ---- What it comes to ---- */
@@ -182,7 +180,7 @@ CASE(test_lab_trends__written__table_and_page)
   add_value("=r,1", 0, "spring_rate", 1000);
   add_value("=r,1", 40, "spring_rate", 1040);
   find();
-  assert_int_equal(lab_trends_write(&trends, scratch_path("trends.csv"), &error), LAB_OK);
+  succeed(lab_trends_write(&trends, scratch_path("trends.csv"), &error));
   text = scratch_read(scratch_path("trends.csv"));
   assert_string_equal(
       text, "rig,parameter,unit,n,first_date,last_date,slope_per_day,slope_low,slope_high,days_left,"
@@ -198,6 +196,6 @@ CASE(test_lab_trends__written__table_and_page)
   cJSON_Delete(page);
   forget(state);
   find(); /* the list has no dates any longer */
-  assert_int_equal(lab_trends_write(&trends, scratch_path("trends.csv"), &error), LAB_OK);
+  succeed(lab_trends_write(&trends, scratch_path("trends.csv"), &error));
   assert_int_equal(access(scratch_path("trends.csv"), F_OK), -1);
 }

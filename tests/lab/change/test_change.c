@@ -1,7 +1,6 @@
 /* From two logs of the independent rig to what has changed between them. */
 #include <math.h>
 
-#include "../../check.h"
 #include "../../scratch.h"
 #include "../../blind/logs.h"
 #include "../../virtual.h"
@@ -36,20 +35,18 @@ static void compare_logs(const char *const path[2])
   static lab_unknowns u;
   static lab_log log[2];
   static lab_run run[2];
-  lab_error error = {0, ""};
   int i;
   for (i = 0; i < 2; i++)
     virtual_open(&rig, path[i], &log[i], &run[i]);
-  assert_int_equal(lab_unknowns_open(&rig, run, 1, &u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
-  assert_int_equal(lab_changes_find(&u, 1, run + 1, 1, 0.01, &changes, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, run, 1, &u, &error));
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
+  succeed(lab_changes_find(&u, 1, run + 1, 1, 0.01, &changes, &error));
 }
 
 static void compare_files(const char *rig_name, const char *then, const char *now)
 {
   const char *const path[2] = {scratch_path(then), scratch_path(now)};
-  lab_error error = {0, ""};
-  assert_int_equal(lab_rig_read(scratch_path(rig_name), &rig, &error), LAB_OK);
+  succeed(lab_rig_read(scratch_path(rig_name), &rig, &error));
   compare_logs(path);
 }
 
@@ -98,9 +95,8 @@ TEST(test_lab_changes_find__another_day__is_unchanged)
 static void write_blind(const blind_trial *trial, const second_rig *g, const blind_schedule *schedule, const char *name)
 {
   blind_rows rows;
-  lab_error error = {0, ""};
-  assert_int_equal(blind_simulate(g, schedule, trial->spacing, &rows, &error), LAB_OK);
-  assert_int_equal(blind_write_rows(&rows, trial->channels, scratch_folder, name, &error), LAB_OK);
+  succeed(blind_simulate(g, schedule, trial->spacing, &rows, &error));
+  succeed(blind_write_rows(&rows, trial->channels, scratch_folder, name, &error));
   blind_rows_free(&rows);
 }
 
@@ -121,7 +117,6 @@ TEST(test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged)
   for (i = 0; i < sizeof days / sizeof *days; i++) {
     const day *d = &days[i];
     second_rig then, now;
-    lab_error error = {0, ""};
     blind_draw(424242, d->trial, &trial);
     trial.channels = BLIND_P | BLIND_X;
     trial.tells_noise = 1;
@@ -134,7 +129,7 @@ TEST(test_lab_changes_find__another_day_of_a_blind_rig__is_unchanged)
     now.pressure_bias = d->pressure_bias;
     now.position_bias = d->position_bias;
     now.dry_friction *= d->friction;
-    assert_int_equal(blind_write_rig(&trial, scratch_folder, &error), LAB_OK);
+    succeed(blind_write_rig(&trial, scratch_folder, &error));
     write_blind(&trial, &then, &trial.holdout, "then.csv");
     write_blind(&trial, &now, &trial.fit, "now.csv");
     compare_files("rig.cfg", "then.csv", "now.csv");

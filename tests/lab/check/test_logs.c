@@ -6,7 +6,6 @@
 
 static lab_logs logs;
 static lab_rig rig;
-static lab_error error;
 
 static const char both[] = "t [s],u [1],sp [mm],x [mm]\n0,0,0,0\n1,1,10,0.1\n2,0.5,10,5\n3,0,10,9.9\n4,0,10,10\n";
 static const char gaps[] = "t [s],u [1],sp [mm],x [mm]\n0,0,0,0\n1,1,10,0.1\n2,0.5,,5\n3,0,,9.9\n4,0,,10\n";
@@ -21,8 +20,7 @@ static int driver(const char *text, int has_positioner, int by_set_position, int
     fixture_set(&rig.params, "positioner.gain", 20);
   logs.by_set_position = by_set_position;
   scratch_text("log.csv", text);
-  if (lab_logs_add(&logs, &rig, scratch_path("log.csv"), &error))
-    fail_msg("%s", error.text);
+  succeed(lab_logs_add(&logs, &rig, scratch_path("log.csv"), &error));
   command = lab_log_command(&logs.log[0]);
   *without_u = logs.n_without_u;
   lab_logs_close(&logs);

@@ -15,7 +15,6 @@ static lab_rig rig;
 static lab_log log_read;
 static lab_limitations limitations;
 static lab_content content;
-static lab_error error;
 
 static int open_all(void **state)
 {
@@ -492,12 +491,12 @@ CASE(test_lab_log_clean__plateau_without_noise__is_saturation_only_if_abrupt)
   for (i = 0; i < b.n; i++)
     b.p[i] = b.t[i] < 0.4 ? 0 : fmin(100 * (b.t[i] - 0.4), 210); /* shut from 2.5 s on: it stays at 210 */
   read_log(&b);
-  assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
+  succeed(lab_log_clean(&rig, &log_read, &limitations, &error));
   assert_int_equal(limitations.n, 0);
   for (i = 0; i < b.n; i++)
     b.p[i] = fmin(b.p[i], 120);
   read_log(&b);
-  assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
+  succeed(lab_log_clean(&rig, &log_read, &limitations, &error));
   assert_contains(limitations.text[0], "120 kPa, its largest value");
   for (i = 0; i < log_read.n; i++)
     gaps += isnan(log_read.value[LAB_CHANNEL_P][i]) != 0;
@@ -512,7 +511,7 @@ CASE(test_lab_log_clean__stop_without_noise__stays)
   for (i = 0; i < b.n; i++)
     b.x[i] = fmin(fmax(20 * (b.t[i] - 1), 0), 20);
   read_log(&b);
-  assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
+  succeed(lab_log_clean(&rig, &log_read, &limitations, &error));
   assert_int_equal(limitations.n, 0);
 }
 
@@ -522,7 +521,7 @@ CASE(test_lab_log_clean__spike__becomes_a_gap)
   b.p[300] = 9999;
   b.p[320] += 60;
   read_log(&b);
-  assert_int_equal(lab_log_clean(&rig, &log_read, &limitations, &error), LAB_OK);
+  succeed(lab_log_clean(&rig, &log_read, &limitations, &error));
   assert_int_equal(limitations.n, 1);
   assert_contains(limitations.text[0], "2 values of channel p are far from both neighbours, the first at line 302");
   assert_true(isnan(log_read.value[LAB_CHANNEL_P][300]));
@@ -689,7 +688,7 @@ static double taken_off(const humming *h)
   log.run = run;
   log.value[LAB_CHANNEL_TIME] = t;
   log.value[LAB_CHANNEL_P] = p;
-  assert_int_equal(lab_log_remove_hum(&log, &limitations, &error), LAB_OK);
+  succeed(lab_log_remove_hum(&log, &limitations, &error));
   return log.hum[LAB_CHANNEL_P].amplitude;
 }
 

@@ -1,5 +1,6 @@
 /* What drives the model without its noise: against the curve that the noise was added to. */
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/check/mend.h"
 
@@ -9,7 +10,6 @@ static const double spacing = 0.1, sigma = 300; /* [s], [Pa] */
 static lab_rig rig;
 static lab_log log_made;
 static lab_limitations limitations;
-static lab_error error;
 
 static double *column(const double *from)
 {
@@ -63,8 +63,7 @@ static void smooth(void)
   log_made.path = malloc(8);
   assert_non_null(log_made.path);
   strcpy(log_made.path, "log.csv");
-  if (lab_log_smooth_inputs(&rig, &log_made, &limitations, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_log_smooth_inputs(&rig, &log_made, &limitations, &error));
 }
 
 /* Root mean square of p less the curve, over the noise. */

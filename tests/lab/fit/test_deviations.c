@@ -1,9 +1,8 @@
 /* What a fit says of declared values: which are told, and in which order. */
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/fit/deviations.h"
-
-static lab_error error;
 
 /* Well determined at a value. */
 static void put(lab_unknowns *u, lab_fit_result *fit, int kind, int index, double value, double declared)
@@ -40,7 +39,7 @@ TEST(test_lab_deviations_find__begins_within_the_log__is_told_first)
   put(&u, &fit, LAB_UNKNOWN_PARAM, PNEU_PARAM_dry_friction, 3 * (double)rig.params.dry_friction, 480);
   put(&u, &fit, LAB_UNKNOWN_PARAM, PNEU_PARAM_spring_rate, 1.5 * (double)rig.params.spring_rate, 4e5);
   put(&u, &fit, LAB_UNKNOWN_ONSET, 0, 0.96 * supply, supply);
-  assert_int_equal(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error), LAB_OK);
+  succeed(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error));
   assert_int_equal(all.n, 4);
   assert_string_equal(all.of[0].name, "supply_pressure");
   assert_string_equal(all.of[1].name, "spring_rate");
@@ -75,7 +74,7 @@ TEST(test_lab_deviations_find__lag_of_half_a_row__is_of_the_logger)
     snprintf(u.unknown[0].unit, sizeof u.unknown[0].unit, "s");
     put(&u, &fit, LAB_UNKNOWN_INSTANT, 0, 0, 0);
     u.unknown[1].upper = 0.03;
-    assert_int_equal(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error), LAB_OK);
+    succeed(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error));
     assert_int_equal(all.n, k != 0);
   }
 }
@@ -110,7 +109,7 @@ TEST(test_lab_deviations_find__several_are_off__small_ones_are_told_with_them)
     u.declared = rig.params;
     for (i = 0; i < 4; i++)
       put_off(&rig, &u, &fit, params[i], off[k][i]);
-    assert_int_equal(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error), LAB_OK);
+    succeed(lab_deviations_find(&rig, &u, &fit, INFINITY, &all, &error));
     assert_int_equal(all.n, told[k]);
   }
 }
@@ -134,7 +133,7 @@ TEST(test_lab_deviations_find__model_lacks_something__values_far_off_or_at_an_en
   rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
   put(&u, &fit, LAB_UNKNOWN_PARAM, PNEU_PARAM_dry_friction, 12 * (double)rig.params.dry_friction, 480);
   for (k = 0; k < 2; k++) {
-    assert_int_equal(lab_deviations_find(&rig, &u, &fit, trusted[k], &all, &error), LAB_OK);
+    succeed(lab_deviations_find(&rig, &u, &fit, trusted[k], &all, &error));
     assert_int_equal(all.n, told[k]);
   }
   assert_string_equal(all.of[0].name, "dead_volume");

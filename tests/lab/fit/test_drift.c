@@ -9,7 +9,6 @@
 enum { ROWS = 41, GAP = 7 };
 static const double sigma = 300, tolerance = 350; /* [Pa] of the R1-400's default: 0.25 % of 140 kPa */
 
-static lab_error error;
 static lab_rig rig;
 static lab_log one_log;
 static lab_run run;
@@ -34,7 +33,7 @@ static void open_run(void)
   run.channel[0] = LAB_CHANNEL_P;
   run.sigma[0] = sigma;
   run.weight = weight;
-  assert_int_equal(lab_drift_open(&run, &error), LAB_OK);
+  succeed(lab_drift_open(&run, &error));
 }
 
 static void close_run(void)
@@ -115,14 +114,14 @@ TEST(test_lab_errors_without_drift__sensor_that_drifts__leave_its_line_out)
   assert_non_null(u);
   virtual_write(&g, &course, (LONG - 1) * spacing, spacing, path);
   virtual_declare(&rig);
-  assert_int_equal(lab_log_read(path, &rig.log, 101325, &seen, &error), LAB_OK);
+  succeed(lab_log_read(path, &rig.log, 101325, &seen, &error));
   for (i = 0; i < LONG; i++)
     seen.value[LAB_CHANNEL_P][i] += reach * (double)i / (LONG - 1);
-  assert_int_equal(lab_run_open(&rig, &seen, 0, &run, &error), LAB_OK);
+  succeed(lab_run_open(&rig, &seen, 0, &run, &error));
   lab_unknowns_none(&rig, &run, 1, u);
-  assert_int_equal(lab_errors_without_drift(u, &with, &error), LAB_OK);
-  assert_int_equal(lab_drift_open(&run, &error), LAB_OK);
-  assert_int_equal(lab_errors_without_drift(u, &without, &error), LAB_OK);
+  succeed(lab_errors_without_drift(u, &with, &error));
+  succeed(lab_drift_open(&run, &error));
+  succeed(lab_errors_without_drift(u, &without, &error));
   assert_close(with.in_noise[LAB_CHANNEL_P], sqrt(1 + reach * reach / 3 / (320 * 320)), 0, 0.03);
   assert_close(without.in_noise[LAB_CHANNEL_P], 1, 0, 0.03);
   assert_close(without.in_noise[LAB_CHANNEL_X], with.in_noise[LAB_CHANNEL_X], 0, 0.001);
@@ -137,7 +136,7 @@ TEST(test_lab_drift_open__no_tolerance__takes_nothing)
   int i;
   open_run();
   rig.tolerance[LAB_PRESSURE_DRIFT] = 0;
-  assert_int_equal(lab_drift_open(&run, &error), LAB_OK);
+  succeed(lab_drift_open(&run, &error));
   for (i = 0; i < ROWS; i++)
     r[i] = before[i] = i;
   lab_drift_take_out(&run, r);

@@ -1,5 +1,5 @@
 /* Least squares within bounds: closed forms, a curved valley, models that fail. */
-#include "../../check.h"
+#include "../../words.h"
 
 #include <stdlib.h>
 
@@ -8,7 +8,6 @@
 
 enum { ROWS = 40, STEPS = 60 };
 
-static lab_error error;
 static double chi2; /* at the end of the last fit */
 
 /* A problem, and how often its slopes were asked for. */
@@ -74,7 +73,7 @@ static double chi2_at(trial *c, const double *theta)
 {
   double r[ROWS], sum = 0;
   int i;
-  assert_int_equal(residuals(c, theta, r, &error), LAB_OK);
+  succeed(residuals(c, theta, r, &error));
   for (i = 0; i < ROWS; i++)
     sum += r[i] * r[i];
   return sum;
@@ -142,7 +141,7 @@ TEST(test_lab_fit__line__is_the_regression_line)
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {40, 7};
   const double b = regression(&c), best[] = {mean(c.y) - b * mean(c.t), b};
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_regression(&c, theta);
   assert_close(chi2, chi2_at(&c, best), 0.02, 1e-6);
 }
@@ -154,7 +153,7 @@ TEST(test_lab_fit__bound_in_the_way__is_the_best_line_on_it)
   lab_fit_problem p = problem_of(&c);
   double theta[] = {40, -2};
   p.upper = bounded;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_true(theta[1] == bounded[1]);
   assert_close(theta[0], mean(c.y) - bounded[1] * mean(c.t), 1e-4, 0);
 }
@@ -166,7 +165,7 @@ TEST(test_lab_fit__bounds_on_all__ends_in_the_corner)
   lab_fit_problem p = problem_of(&c);
   double theta[] = {4, 0};
   p.lower = least;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_true(theta[0] == least[0]);
   assert_true(theta[1] == least[1]);
   assert_close(chi2, chi2_at(&c, least), 0, 1e-12);
@@ -180,7 +179,7 @@ TEST(test_lab_fit__start_on_bounds__leaves_them)
   double theta[] = {9, -4};
   p.upper = above;
   p.lower = below;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_regression(&c, theta);
 }
 
@@ -197,7 +196,7 @@ TEST(test_lab_fit__rosenbrock__follows_the_valley)
   trial c = make_rows(2, valley);
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {-1.2, 1};
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_close(theta[0], 1, 3e-4, 0);
   assert_close(theta[1], 1, 6e-4, 0);
   assert_close(chi2, chi2_at(&c, theta), 0, 1e-12);
@@ -210,7 +209,7 @@ TEST(test_lab_fit__one_step__is_on_the_way)
   double theta[] = {-1.2, 1};
   const double before = 1e6 * (4.4 * 4.4 + 2.2 * 2.2);
   p.steps = 1;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_true(chi2 < 0.5 * before && chi2 > 1e-3 * before);
   assert_close(chi2, chi2_at(&c, theta), 0, 1e-12);
   assert_int_equal(c.asked[0], 1);
@@ -226,15 +225,15 @@ TEST(test_lab_fit__near_enough__ends_at_once)
   const double b = regression(&c), off = mean(c.y) - b * mean(c.t) + 1e-3;
   double theta[] = {off, b};
   p.enough = 1;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_true(theta[0] == off && theta[1] == b);
   assert_close(chi2, chi2_at(&c, theta), 0, 1e-12);
   p.enough = 0.1;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_close(theta[0], off - 1e-3, 1e-6, 0);
   theta[0] = off;
   p.enough_share = 0.9;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_true(theta[0] == off);
 }
 
@@ -251,7 +250,7 @@ TEST(test_lab_fit__model_fails_beyond__stays_where_it_does_not)
   trial c = {1, {0}, {0}, logarithm, 100, LAB_NUMERIC, -1, {0}, 0};
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {5};
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_close(theta[0], 1, 1e-3, 0);
 }
 
@@ -302,7 +301,7 @@ TEST(test_lab_fit__slope_fails__leaves_that_unknown_where_it_is)
   const lab_fit_problem p = problem_of(&c);
   double theta[] = {40, -0.2};
   c.no_slope = 1;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_true(theta[1] == -0.2);
   assert_close(theta[0], mean(c.y) + 0.2 * mean(c.t), 1e-4, 0);
 }
@@ -326,7 +325,7 @@ TEST(test_lab_fit__kept_slopes__end_where_new_ones_would)
     c.t[i] = 0.1 * i;
     c.y[i] = decay(truth, c.t[i]) + (i % 3 - 1) * 0.01;
   }
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_close(chi2, chi2_at(&c, theta), 0, 1e-12);
   assert_true(c.asked[0] >= 2); /* at the start, and once more before the end */
   assert_true(2 * c.asked[0] < c.evaluations);
@@ -350,21 +349,21 @@ TEST(test_lab_fit__known_slopes__are_not_asked_for_before_the_end)
   const char known[] = {1, 1}, half[] = {0, 1};
   lab_fit_problem p = problem_of(&c);
   p.slopes = slopes;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   p.is_known = known;
   p.is_brief = 1;
   theta[0] = theta[1] = c.asked[0] = c.asked[1] = 0;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_regression(&c, theta);
   assert_int_equal(c.asked[0] + c.asked[1], 0);
   p.is_known = half;
   theta[0] = theta[1] = 0;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_int_equal(c.asked[0], 1);
   assert_int_equal(c.asked[1], 0);
   p.is_brief = 0;
   theta[0] = theta[1] = c.asked[0] = 0;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_int_equal(c.asked[0], 2); /* at the start, and with the other before the end */
   assert_int_equal(c.asked[1], 1);
 }
@@ -381,7 +380,7 @@ TEST(test_lab_fit__known_slopes_that_are_wrong__are_renewed)
     slopes[i] = i % 7 - 3;
   p.slopes = slopes;
   p.is_known = known;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_regression(&c, theta);
 }
 
@@ -396,10 +395,10 @@ TEST(test_lab_fit__rough_model__has_new_slopes_at_every_step)
     c.y[i] = 2 * exp(-0.07 * i);
   }
   again = c;
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   p.context = &again;
   p.is_rough = 1;
-  assert_int_equal(lab_fit(&p, other, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, other, &chi2, &error));
   assert_true(again.asked[0] > c.asked[0]);
 }
 
@@ -429,7 +428,7 @@ TEST(test_lab_fit__two_wells__search_finds_the_deeper)
   for (search = 0; search <= 20; search += 20) {
     const lab_fit_problem p = wells_of(&c, search);
     double theta[] = {-1.1};
-    assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+    succeed(lab_fit(&p, theta, &chi2, &error));
     assert_close(theta[0], search ? 1 : -0.99, 0.02, 0);
   }
 }
@@ -447,7 +446,7 @@ TEST(test_lab_fit__search__avoids_what_fails_and_stays_within_the_bounds)
   trial c = make_rows(1, one_well);
   const lab_fit_problem p = wells_of(&c, 200);
   double theta[] = {-3};
-  assert_int_equal(lab_fit(&p, theta, &chi2, &error), LAB_OK);
+  succeed(lab_fit(&p, theta, &chi2, &error));
   assert_close(theta[0], -0.99, 0.02, 0);
 }
 
@@ -477,9 +476,9 @@ TEST(test_lab_fit__search_with_most_unknowns__stays_inside_and_finds_more)
     upper[j] = 2;
     theta[j] = 0.9;
   }
-  assert_int_equal(lab_fit_evaluate(&p, theta, r, &before, &error), LAB_OK);
-  assert_int_equal(lab_fit_search(&p, theta, &error), LAB_OK);
-  assert_int_equal(lab_fit_evaluate(&p, theta, r, &after, &error), LAB_OK);
+  succeed(lab_fit_evaluate(&p, theta, r, &before, &error));
+  succeed(lab_fit_search(&p, theta, &error));
+  succeed(lab_fit_evaluate(&p, theta, r, &after, &error));
   assert_true(after < 0.2 * before);
   for (j = 0; j < LAB_FIT_MAX; j++)
     assert_true(theta[j] >= -1 && theta[j] <= 2);
@@ -491,7 +490,7 @@ TEST(test_lab_fit__search_finds_nothing_better__goes_on_from_the_start)
   trial c = make_rows(1, two_wells);
   lab_fit_problem p = wells_of(&c, 3);
   double theta[] = {0.99};
-  assert_int_equal(lab_fit_search(&p, theta, &error), LAB_OK);
+  succeed(lab_fit_search(&p, theta, &error));
   assert_true(theta[0] == 0.99);
 }
 

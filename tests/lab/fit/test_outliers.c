@@ -1,7 +1,6 @@
 /* Single values that neither the model nor their neighbours know of, in a log that the model itself has made. */
 #include "../../fixture.h"
 #include "../../virtual.h"
-#include "../../words.h"
 
 #include "../../../apps/lab/fit/outliers.h"
 
@@ -9,7 +8,6 @@ enum { ROWS = 401, OPENED = 20, CLOSED = 200 };
 static const double spacing = 0.01; /* [s] */
 static const double sigma_p = 300, sigma_x = 2e-5;
 
-static lab_error error;
 static lab_rig rig;
 static lab_unknowns u;
 static lab_run run;
@@ -24,7 +22,7 @@ static void measure(void)
 {
   double y[2 * ROWS], early[2] = {0, 0};
   int i;
-  assert_int_equal(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, early, u.tol, y, &error), LAB_OK);
+  succeed(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, early, u.tol, y, &error));
   for (i = 0; i < ROWS; i++) {
     p[i] = y[i] + 0.2 * sigma_p * fixture_normal(&seed);
     x[i] = y[ROWS + i] + 0.2 * sigma_x * fixture_normal(&seed);
@@ -47,8 +45,8 @@ static int open_log(void **state)
     command[i] = i < OPENED ? 0 : i < CLOSED ? 1 : -1;
     p[i] = x[i] = 0;
   }
-  assert_int_equal(lab_run_open(&rig, &run_log, 0, &run, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
+  succeed(lab_run_open(&rig, &run_log, 0, &run, &error));
+  succeed(lab_unknowns_open(&rig, &run, 1, &u, &error));
   for (i = 0; i < u.n; i++)
     u.unknown[i].value = 0; /* commands at their rows */
   measure();
@@ -67,8 +65,7 @@ static int close_log(void **state)
 
 static void take(size_t expected)
 {
-  if (lab_outliers_take(&u, &run_log, &out, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_outliers_take(&u, &run_log, &out, &error));
   assert_int_equal(out.n, expected);
 }
 
@@ -153,8 +150,8 @@ CASE(test_lab_outliers_take__a_peak_of_the_model__is_no_outlier)
   run_log.value[LAB_CHANNEL_U][100] = -1; /* vents for one row */
   run_log.value[LAB_CHANNEL_U][101] = 1;
   lab_run_close(&run);
-  assert_int_equal(lab_run_open(&rig, &run_log, 0, &run, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
+  succeed(lab_run_open(&rig, &run_log, 0, &run, &error));
+  succeed(lab_unknowns_open(&rig, &run, 1, &u, &error));
   take(0);
 }
 

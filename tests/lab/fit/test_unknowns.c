@@ -1,7 +1,6 @@
 /* What a fit looks for: two runs of a log that the model itself has made, with known values for all of it. */
 #include "../../fixture.h"
 #include "../../virtual.h"
-#include "../../words.h"
 
 #include "../../../apps/lab/base/array.h"
 #include "../../../apps/lab/fit/errors.h"
@@ -13,7 +12,6 @@ enum { ROWS = 81, RUNS = 2, SWITCHES = 2, FIRST_SWITCH = 8, DATA = RUNS * ROWS *
 static const double spacing = 0.05; /* [s] */
 static const double sigma_p = 300, sigma_x = 2e-5;
 
-static lab_error error;
 static lab_rig rig;
 static lab_unknowns u;
 static lab_run run[RUNS];
@@ -82,16 +80,15 @@ static void open_empty(void)
   close_all();
   write_commands();
   for (k = 0; k < RUNS; k++)
-    assert_int_equal(lab_run_open(&rig, &run_log, (size_t)k, &run[k], &error), LAB_OK);
-  if (lab_unknowns_open(&rig, run, RUNS, &u, &error))
-    fail_msg("%s", error.text);
+    succeed(lab_run_open(&rig, &run_log, (size_t)k, &run[k], &error));
+  succeed(lab_unknowns_open(&rig, run, RUNS, &u, &error));
 }
 
 /* Let the model measure one run: its rig, and how early its commands were. */
 static void measure_run(const lab_rig *truth, int k, const double early[SWITCHES])
 {
   double y[2 * ROWS];
-  assert_int_equal(lab_run_predict(&run[k], &(lab_episode){0, truth}, 1, early, u.tol, y, &error), LAB_OK);
+  succeed(lab_run_predict(&run[k], &(lab_episode){0, truth}, 1, early, u.tol, y, &error));
   memcpy(p + k * ROWS, y, ROWS * sizeof *y);
   memcpy(x + k * ROWS, y + ROWS, ROWS * sizeof *y);
 }
@@ -237,9 +234,9 @@ TEST(test_lab_unknowns_stay_near__far_more_than_declared__is_ten_tolerances_off)
   assert_close(u.unknown[0].value, 6 * declared, 0, 1e-6);
   assert_close((double)u.rig.params.damping, 6 * declared, 0, 1e-6);
   assert_int_equal(lab_unknowns_is_far(&u, 10), 1); /* at its end, as good as beyond */
-  assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_spring_rate, 1, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, PNEU_PARAM_spring_rate, 1, &error));
   assert_close(u.unknown[u.n - 1].upper, 2 * (double)rig.params.spring_rate, 0, 1e-12);
-  assert_int_equal(lab_unknowns_add(&u, LAB_PARAM_ORIFICE_AREA, 4, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, LAB_PARAM_ORIFICE_AREA, 4, &error));
   assert_close(u.unknown[u.n - 1].value, 3, 0, 1e-12);
   rig.params.damping = 0;
   open_empty();
@@ -261,7 +258,7 @@ TEST(test_lab_candidate_is_far__values_of_two_causes_one_not_fitted__is_far)
   fit_list("spring_rate", 0);
   fit_list("damping", 0);
   open_empty();
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&u, &error));
   put(PNEU_PARAM_fill_area, 2);
   put(PNEU_PARAM_vent_area, 2);
   assert_false(lab_candidate_is_far(&u)); /* orifices of another make */
@@ -315,7 +312,7 @@ TEST(test_lab_unknowns_hold__declared_values__have_a_prior_and_are_never_lost)
 {
   int j;
   open_usual();
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&u, &error));
   j = lab_unknowns_find(&u, PNEU_PARAM_moving_mass);
   assert_true(j >= USUAL);
   assert_close(u.unknown[j].prior, (double)u.declared.moving_mass, 0, 1e-12);
@@ -332,13 +329,13 @@ TEST(test_lab_unknowns_hold__damping_and_viscous_friction__are_one)
   rig.params.damping = 900;
   rig.params.viscous_friction = 1000;
   open_empty();
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&u, &error));
   assert_true(lab_unknowns_find(&u, PNEU_PARAM_viscous_friction) >= 0);
   assert_int_equal(lab_unknowns_find(&u, PNEU_PARAM_damping), -1);
   declare();
   fit_list("damping", 0);
   open_empty();
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&u, &error));
   assert_int_equal(lab_unknowns_find(&u, PNEU_PARAM_viscous_friction), -1);
 }
 
@@ -348,8 +345,8 @@ TEST(test_lab_unknowns_settle__lag_that_does_not_act__is_none)
   const int lag = pneu_param_find("position_lag.position_time"), late = pneu_param_find("pressure_lag.pressure_time");
   int held;
   open_empty();
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add(&u, late, 1e-10, &error), LAB_OK); /* let go: it is no longer held */
+  succeed(lab_unknowns_hold(&u, &error));
+  succeed(lab_unknowns_add(&u, late, 1e-10, &error)); /* let go: it is no longer held */
   held = lab_unknowns_find(&u, lag);
   assert_true(held >= 0);
   u.unknown[held].value = 1e-10;
@@ -379,13 +376,13 @@ TEST(test_lab_unknowns_fit__actuator_of_another_size__is_as_large_as_declared)
   fit_list("damping", 0);
   open_empty();
   measure(&rig);
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&u, &error));
   for (i = 0; i < COUNT(grown); i++) {
     j = lab_unknowns_find(&u, grown[i]);
     assert_true(j >= 0);
     u.unknown[j].value *= 1.5;
   }
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
   for (i = 0; i < COUNT(grown); i++) {
     j = lab_unknowns_find(&u, grown[i]);
     check_note("%s", u.unknown[j].name);
@@ -400,21 +397,21 @@ TEST(test_lab_unknowns_weigh_held__model_that_misfits__has_priors_that_count_by_
   double misfit;
   int j, k;
   open_measured();
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_weigh_held(&u, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&u, &error));
+  succeed(lab_unknowns_weigh_held(&u, &error));
   assert_close(u.misfit, 1, 0, 0);
   for (j = 0; j < RUNS * ROWS; j++)
     x[j] += 30 * sigma_x * (j % 2 ? 1 : -1);
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
   misfit = size_of(r, DATA);
   assert_true(misfit > 10);
-  assert_int_equal(lab_unknowns_weigh_held(&u, &error), LAB_OK);
+  succeed(lab_unknowns_weigh_held(&u, &error));
   assert_close(u.misfit, misfit, 0, 1e-12);
   lab_unknowns_values(&u, theta);
   j = lab_unknowns_find(&u, PNEU_PARAM_moving_mass);
   theta[j] += 0.5 * u.unknown[j].spread;
   theta[SWITCH_1] = u.unknown[SWITCH_1].prior + u.unknown[SWITCH_1].spread;
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
   for (k = 0; k < u.n; k++)
     assert_close(r[DATA + k], k == j ? -0.5 * misfit : k == SWITCH_1 ? -1 : 0, 1e-9, 0);
 }
@@ -434,16 +431,16 @@ TEST(test_lab_unknowns_fit__own_value_in_a_model_that_errs__counts_by_what_is_le
   measure(&rig);
   for (k = 0; k < RUNS * ROWS; k++)
     x[k] += 100 * sigma_x * (k % 4 ? 1 : -1);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
   lab_unknowns_values(&u, theta);
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
   misfit = size_of(r, DATA);
   assert_true(misfit > 50);
   assert_close(u.own_misfit, misfit, 0, 1e-9);
   for (k = 0; k < RUNS; k++) {
     assert_close(lab_unknown_reach(&u, &u.unknown[k]), tolerance / misfit, 0, 1e-9);
     assert_true(fabs(theta[k]) > 0.1 * tolerance && fabs(theta[k]) < 5 * tolerance);
-    assert_int_equal(lab_unknowns_slope(&u, theta, r, k, column, &error), LAB_OK);
+    succeed(lab_unknowns_slope(&u, theta, r, k, column, &error));
     slope = lab_dot(column, r, u.m);
     assert_between(slope / sqrt(lab_dot(column, column, u.m) * lab_dot(r, r, u.m)), -0.05, 0.05);
   }
@@ -464,8 +461,8 @@ static void open_alternating(int rows)
   for (i = 0; i < ROWS; i++)
     command[ROWS + i] = (i / rows) % 2;
   lab_run_close(&run[1]);
-  assert_int_equal(lab_run_open(&rig, &run_log, 1, &run[1], &error), LAB_OK);
-  assert_int_equal(lab_unknowns_open(&rig, run, RUNS, &u, &error), LAB_OK);
+  succeed(lab_run_open(&rig, &run_log, 1, &run[1], &error));
+  succeed(lab_unknowns_open(&rig, run, RUNS, &u, &error));
 }
 
 /* An instant for each change where there are ten rows for each, and else one share of a row for all of them. */
@@ -498,15 +495,15 @@ TEST(test_lab_unknowns_residuals__command_that_changes_often__is_matched_by_its_
   open_alternating(8);
   for (k = 0; k < run[1].n_instants; k++)
     early[k] = 0.3 * spacing;
-  assert_int_equal(lab_run_predict(&run[1], &(lab_episode){0, &rig}, 1, early, u.tol, y, &error), LAB_OK);
+  succeed(lab_run_predict(&run[1], &(lab_episode){0, &rig}, 1, early, u.tol, y, &error));
   memcpy(p + ROWS, y, ROWS * sizeof *y);
   memcpy(x + ROWS, y + ROWS, ROWS * sizeof *y);
   lab_unknowns_values(&u, theta);
   theta[SWITCHES] = 0.3;
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
   assert_close(size_of(r + 2 * ROWS, 2 * ROWS), 0, 1e-9, 0);
   theta[SWITCHES] = 0;
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
   assert_true(size_of(r + 2 * ROWS, 2 * ROWS) > 1);
 }
 
@@ -522,7 +519,7 @@ TEST(test_lab_unknowns_none__commands_at_their_rows__leave_nothing)
   assert_int_equal(u.n, 0);
   assert_int_equal(u.n_rows, DATA);
   assert_int_equal(u.m, DATA);
-  assert_int_equal(lab_unknowns_errors(&u, r, &error), LAB_OK);
+  succeed(lab_unknowns_errors(&u, r, &error));
   assert_all_zero(r, DATA);
 }
 
@@ -530,7 +527,7 @@ TEST(test_lab_unknowns_add__parameter__is_in_the_model_with_its_scale)
 {
   const lab_unknown *added = &u.unknown[USUAL];
   open_usual();
-  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error));
   assert_int_equal(u.n, USUAL + 1);
   assert_string_equal(added->name, "moving_mass");
   assert_string_equal(added->unit, "kg");
@@ -547,7 +544,7 @@ TEST(test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size)
   pneu_param_info info;
   pneu_param_describe(param, &info);
   open_usual();
-  assert_int_equal(lab_unknowns_add(&u, param, 0, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, param, 0, &error));
   assert_close(u.unknown[USUAL].scale, fabs((double)info.value), 0, 0);
   assert_close(u.unknown[USUAL].lower, info.lower, 0, 0);
   assert_close(u.unknown[USUAL].upper, info.upper, 0, 0);
@@ -556,10 +553,10 @@ TEST(test_lab_unknowns_add__effect__has_the_scale_of_its_usual_size)
 TEST(test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them)
 {
   open_usual();
-  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 1e9, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, index_of("moving_mass"), 1e9, &error));
   assert_close(u.unknown[USUAL].value, 1e4, 0, 0);
   assert_close(u.rig.params.moving_mass, 1e4, 0, 0);
-  assert_int_equal(lab_unknowns_add(&u, index_of("critical_ratio"), -1, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, index_of("critical_ratio"), -1, &error));
   assert_close(u.unknown[USUAL + 1].value, 0, 0, 0);
 }
 
@@ -567,7 +564,7 @@ TEST(test_lab_unknowns_add__beyond_its_bounds__is_put_onto_them)
 TEST(test_lab_unknowns_add__damping__stays_above_a_fiftieth_of_what_is_declared)
 {
   open_usual();
-  assert_int_equal(lab_unknowns_add(&u, PNEU_PARAM_damping, 0, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, PNEU_PARAM_damping, 0, &error));
   assert_close(u.unknown[u.n - 1].value, 0.02 * (double)rig.params.damping, 0, 1e-9);
   close_all();
 }
@@ -577,9 +574,8 @@ TEST(test_lab_unknowns_add__no_room__is_refused)
   int j;
   open_usual();
   for (j = USUAL; j < LAB_FIT_MAX; j++)
-    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_DATA);
-  assert_contains(error.text, "more than 256 things");
+    succeed(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error));
+  assert_fails(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_DATA, "more than 256 things");
   assert_int_equal(u.n, LAB_FIT_MAX);
 }
 
@@ -590,9 +586,9 @@ TEST(test_lab_unknowns_drop__one_between_others__leaves_these_in_order)
   pneu_param_info info;
   pneu_param_describe(velocity, &info);
   open_usual();
-  assert_int_equal(lab_unknowns_add(&u, bias, 500, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add(&u, excess, 0.3, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add(&u, velocity, 0.9 * (double)info.value, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, bias, 500, &error));
+  succeed(lab_unknowns_add(&u, excess, 0.3, &error));
+  succeed(lab_unknowns_add(&u, velocity, 0.9 * (double)info.value, &error));
   lab_unknowns_drop(&u, bias);
   assert_int_equal(u.n, USUAL + 2);
   assert_int_equal(lab_unknowns_find(&u, bias), -1);
@@ -624,7 +620,7 @@ TEST(test_lab_unknowns_add_term__free_ends__has_all_its_knots)
   char name[32];
   int i;
   open_usual();
-  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
+  succeed(lab_unknowns_add_term(&u, &bump, 50, 0, &error));
   assert_int_equal(u.n, USUAL + 5);
   assert_int_equal(u.rig.n_terms, 1);
   assert_memory_equal(&u.rig.term[0], &bump, sizeof bump);
@@ -648,8 +644,8 @@ TEST(test_lab_unknowns_add_term__held_ends__keep_their_values)
   lab_rig model;
   int i;
   open_usual();
-  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 1, &error), LAB_OK);
+  succeed(lab_unknowns_add_term(&u, &bump, 50, 0, &error));
+  succeed(lab_unknowns_add_term(&u, &bump, 50, 1, &error));
   assert_int_equal(u.n, USUAL + 5 + 3);
   assert_string_equal(u.unknown[USUAL + 5].name, "unlisted_2.2");
   assert_string_equal(u.unknown[USUAL + 7].name, "unlisted_2.4");
@@ -667,9 +663,9 @@ TEST(test_lab_unknowns_add_term__held_ends__keep_their_values)
 TEST(test_lab_unknowns_drop_term__the_last_one__takes_its_knots_alone)
 {
   open_usual();
-  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 0, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 2, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  succeed(lab_unknowns_add_term(&u, &bump, 50, 0, &error));
+  succeed(lab_unknowns_add_term(&u, &bump, 50, 2, &error));
+  succeed(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error));
   lab_unknowns_drop_term(&u);
   assert_int_equal(u.rig.n_terms, 1);
   assert_int_equal(u.n, USUAL + 5 + 1);
@@ -682,7 +678,7 @@ static void assert_no_room(const pneu_term *term)
 {
   open_usual();
   while (u.n < LAB_FIT_MAX - 4)
-    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+    succeed(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error));
   assert_int_equal(lab_unknowns_add_term(&u, term, 50, 0, &error), LAB_DATA);
   assert_int_equal(u.rig.n_terms, 0);
   assert_int_equal(u.n, LAB_FIT_MAX - 4);
@@ -693,7 +689,7 @@ TEST(test_lab_unknowns_add_term__no_room__is_refused_and_leaves_all_as_it_is)
   int k;
   open_usual();
   for (k = 0; k < LAB_TERM_MAX; k++)
-    assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 2, &error), LAB_OK);
+    succeed(lab_unknowns_add_term(&u, &bump, 50, 2, &error));
   assert_int_equal(lab_unknowns_add_term(&u, &bump, 50, 2, &error), LAB_DATA);
   assert_int_equal(u.rig.n_terms, LAB_TERM_MAX);
   assert_no_room(&bump);
@@ -711,7 +707,7 @@ TEST(test_lab_unknowns_add_term__cycle__has_its_amplitudes_and_its_period)
   const lab_unknown *period = &u.unknown[USUAL + 4];
   int i;
   open_usual();
-  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  succeed(lab_unknowns_add_term(&u, &wave, 50, 0, &error));
   assert_int_equal(u.n, USUAL + 5);
   assert_int_equal(u.rig.n_terms, 1);
   for (i = 0; i < 4; i++) {
@@ -735,8 +731,8 @@ TEST(test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone)
 {
   lab_rig model;
   open_usual();
-  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+  succeed(lab_unknowns_add_term(&u, &wave, 50, 0, &error));
+  succeed(lab_unknowns_add_term(&u, &wave, 50, 0, &error));
   lab_unknowns_values(&u, theta);
   theta[USUAL + 9] = 0.6;
   model = u.rig;
@@ -750,9 +746,9 @@ TEST(test_lab_unknowns_apply__period__moves_the_end_of_its_term_alone)
 TEST(test_lab_unknowns_drop_term__cycle__takes_its_period_along)
 {
   open_usual();
-  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
+  succeed(lab_unknowns_add_term(&u, &wave, 50, 0, &error));
+  succeed(lab_unknowns_add_term(&u, &wave, 50, 0, &error));
+  succeed(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error));
   lab_unknowns_drop_term(&u);
   assert_int_equal(u.rig.n_terms, 1);
   assert_int_equal(u.n, USUAL + 5 + 1);
@@ -767,8 +763,8 @@ TEST(test_lab_unknowns_add_term__no_room_for_the_period__is_refused)
   assert_no_room(&wave);
   lab_unknowns_drop(&u, index_of("moving_mass"));
   while (u.n < LAB_FIT_MAX - 5)
-    assert_int_equal(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_add_term(&u, &wave, 50, 0, &error), LAB_OK);
+    succeed(lab_unknowns_add(&u, index_of("moving_mass"), 3, &error));
+  succeed(lab_unknowns_add_term(&u, &wave, 50, 0, &error));
   assert_int_equal(u.n, LAB_FIT_MAX);
 }
 
@@ -811,11 +807,11 @@ TEST(test_lab_unknowns_residuals__log_of_the_model_itself__are_zero)
   size_t window;
   open_measured();
   assert_true(p[ROWS / 2] > 1e5 && x[ROWS / 2] > 0.01); /* it fills, and the stem moves */
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
   assert_all_zero(r, u.m);
-  assert_int_equal(lab_unknowns_errors(&u, r, &error), LAB_OK);
+  succeed(lab_unknowns_errors(&u, r, &error));
   assert_all_zero(r, u.n_rows);
-  assert_int_equal(lab_unknowns_sticks_and_slips(&u, 0, &window, &error), LAB_OK);
+  succeed(lab_unknowns_sticks_and_slips(&u, 0, &window, &error));
   assert_int_equal(window, 0);
 }
 
@@ -826,9 +822,9 @@ TEST(test_lab_unknowns_sticks_and_slips__rough_pressure__is_not_of_the_stem)
   open_measured();
   for (i = 0; i < ROWS; i++)
     p[i] += i / 3 % 2 ? 1e5 : -1e5;
-  assert_int_equal(lab_unknowns_sticks_and_slips(&u, 0, &window, &error), LAB_OK);
+  succeed(lab_unknowns_sticks_and_slips(&u, 0, &window, &error));
   assert_true(window > 0);
-  assert_int_equal(lab_unknowns_sticks_and_slips(&u, 1, &window, &error), LAB_OK);
+  succeed(lab_unknowns_sticks_and_slips(&u, 1, &window, &error));
   assert_int_equal(window, 0);
 }
 
@@ -840,7 +836,7 @@ TEST(test_lab_unknowns_residuals__known_errors__are_over_the_noise)
   p[at[0] + FIRST_SWITCH] += 600;
   x[at[1]] -= 1e-5;
   x[ROWS + at[2] + FIRST_SWITCH] += 4e-5;
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
   assert_close(r[at[0] + FIRST_SWITCH], 2, 1e-9, 0);
   assert_close(r[ROWS + at[1]], -0.5, 1e-9, 0);
   assert_close(r[3 * ROWS + at[2] + FIRST_SWITCH], 2, 1e-9, 0);
@@ -851,7 +847,7 @@ TEST(test_lab_unknowns_residuals__gap__counts_nothing)
 {
   open_measured();
   p[30] = x[ROWS + 40] = NAN;
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
   assert_all_zero(r, u.m);
 }
 
@@ -867,7 +863,7 @@ TEST(test_lab_loop_errors__known_errors_and_gaps__are_over_the_values_that_are_t
     x[ROWS + i] -= 3 * sigma_x;
   }
   p[30] = x[ROWS + 40] = NAN;
-  assert_int_equal(lab_loop_errors(&u, &errors, &error), LAB_OK);
+  succeed(lab_loop_errors(&u, &errors, &error));
   assert_close(errors.in_noise[LAB_CHANNEL_P], sqrt(9 * 4 / n), 0, 1e-9);
   assert_close(errors.in_noise[LAB_CHANNEL_X], sqrt(9 * 9 / n), 0, 1e-9);
   assert_close(errors.rmse[LAB_CHANNEL_P], sigma_p * sqrt(9 * 4 / n), 0, 1e-9);
@@ -892,10 +888,10 @@ TEST(test_lab_unknowns_residuals__own_values__belong_to_their_log)
   lab_unknowns_values(&u, theta);
   theta[AREA_1] = factor[0];
   theta[AREA_2] = factor[1];
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
   assert_all_zero(r, u.m);
   theta[AREA_2] = factor[0];
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
   assert_all_zero(r, 2 * ROWS);
   assert_true(size_of(r + 2 * ROWS, 2 * ROWS) > 10);
 }
@@ -905,7 +901,7 @@ TEST(test_lab_unknowns_residuals__switch_off_its_middle__is_paid_for)
   open_measured();
   lab_unknowns_values(&u, theta);
   theta[SWITCH_1 + 2] = 0.04; /* of the second run */
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
   assert_close(r[DATA + SWITCH_1 + 2], (0.025 - 0.04) / (0.05 / sqrt(12)), 1e-12, 0);
   r[DATA + SWITCH_1 + 2] = 0;
   assert_all_zero(r + DATA, (size_t)u.n);
@@ -925,7 +921,7 @@ TEST(test_lab_unknowns_residuals__commands_that_were_early__are_matched_by_their
     theta[SWITCH_1 + 2 * k] = early[k][0];
     theta[SWITCH_1 + 2 * k + 1] = early[k][1];
   }
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
   assert_all_zero(r, DATA);
 }
 
@@ -944,8 +940,8 @@ TEST(test_lab_unknowns_residuals__noise_with_memory__are_whitened)
   }
   x[ROWS + GAP] = NAN;
   run[1].colour[1] = (lab_colour){0.6, 1};
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_errors(&u, other, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
+  succeed(lab_unknowns_errors(&u, other, &error));
   assert_memory_equal(r, other, 3 * ROWS * sizeof *r);
   for (i = 1; i < ROWS; i++) {
     const int before = i == GAP + 1 ? 2 : 1;
@@ -965,8 +961,8 @@ TEST(test_lab_unknowns_residuals_with__another_model__takes_its_shared_values)
   theta[FRICTION] = 700;
   model = u.rig;
   model.params.dry_friction = 700;
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_residuals_with(&u, &model, other, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
+  succeed(lab_unknowns_residuals_with(&u, &model, other, &error));
   assert_true(size_of(r, 2 * ROWS) > 1);
   assert_memory_equal(r, other, u.m * sizeof *r);
 }
@@ -986,7 +982,7 @@ TEST(test_lab_unknowns_view__windows__has_the_coarse_residuals)
   lab_unknowns_view(&u, WINDOW);
   assert_int_equal(u.n_data, 2 * RUNS * n);
   assert_int_equal(u.m, u.n_data + USUAL);
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
   for (k = 0; k < RUNS; k++) {
     const size_t at = (size_t)k * 2 * n, row = (size_t)k * ROWS;
     lab_windowed_residuals(p + row, predicted_p + row, ROWS, WINDOW, sigma_p, other + at);
@@ -1009,11 +1005,11 @@ TEST(test_lab_unknowns_slope__gain_of_a_sensor__is_the_signal_over_the_noise)
   const int gain = index_of("pressure_gain.pressure_gain");
   int i;
   open_closely();
-  assert_int_equal(lab_unknowns_add(&u, gain, 0, &error), LAB_OK);
+  succeed(lab_unknowns_add(&u, gain, 0, &error));
   u.m = u.n_data + (size_t)u.n;
   lab_unknowns_values(&u, theta);
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_slope(&u, theta, r, USUAL, column, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
+  succeed(lab_unknowns_slope(&u, theta, r, USUAL, column, &error));
   for (i = 0; i < ROWS; i++) {
     check_note("row %d", i);
     assert_close(column[i], -p[i] / sigma_p, 0.1, 0);
@@ -1030,8 +1026,8 @@ TEST(test_lab_unknowns_slope__switch__has_its_prior)
   int j;
   open_measured();
   lab_unknowns_values(&u, theta);
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_slope(&u, theta, r, SWITCH_1 + 1, column, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
+  succeed(lab_unknowns_slope(&u, theta, r, SWITCH_1 + 1, column, &error));
   for (j = 0; j < u.n; j++)
     assert_close(column[DATA + j], j == SWITCH_1 + 1 ? -sqrt(12) / spacing : 0, 0, 1e-9);
   assert_all_zero(column + 2 * ROWS, 2 * ROWS); /* the other run */
@@ -1055,9 +1051,9 @@ static void difference(int j, double up, double down, double *quotient)
   size_t i;
   memcpy(at, theta, sizeof at);
   at[j] = theta[j] + up;
-  assert_int_equal(lab_unknowns_residuals(&u, at, quotient, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, at, quotient, &error));
   at[j] = theta[j] - down;
-  assert_int_equal(lab_unknowns_residuals(&u, at, below, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, at, below, &error));
   for (i = 0; i < u.m; i++)
     quotient[i] = (quotient[i] - below[i]) / (up + down);
 }
@@ -1067,12 +1063,12 @@ TEST(test_lab_unknowns_slope__every_unknown__is_that_of_a_second_difference)
 {
   int j;
   open_closely();
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
   for (j = 0; j < USUAL; j++) {
     const int is_instant = u.unknown[j].kind == LAB_UNKNOWN_INSTANT;
     const double up = (is_instant ? 0.15 : 1e-2) * u.unknown[j].scale, down = is_instant ? 0 : up;
     check_note("%s", u.unknown[j].name);
-    assert_int_equal(lab_unknowns_slope(&u, theta, r, j, column, &error), LAB_OK);
+    succeed(lab_unknowns_slope(&u, theta, r, j, column, &error));
     difference(j, up, down, other);
     assert_true(size_of(column, u.m) > 0);
     assert_close(distance(column, other, u.m), 0, 0.05, 0);
@@ -1087,7 +1083,7 @@ TEST(test_lab_unknowns_slopes_together__every_unknown__is_that_of_a_difference)
   int j;
   open_closely();
   done[SPRING] = 1;
-  assert_int_equal(lab_unknowns_slopes_together(&u, theta, J, done, &error), LAB_OK);
+  succeed(lab_unknowns_slopes_together(&u, theta, J, done, &error));
   assert_true(size_of(J + SPRING * u.m, u.m) == 0);
   for (j = 0; j < USUAL; j++) {
     const double step = 1e-5 * u.unknown[j].scale;
@@ -1110,10 +1106,10 @@ TEST(test_lab_unknowns_changes_with__other_models__are_their_differences)
   model[LEAKING] = model[LAGGING] = u.rig;
   *pneu_param_at(&model[LEAKING].params, pneu_param_find("leak_area")) = (pneu_real)1e-12;
   *pneu_param_at(&model[LAGGING].params, pneu_param_find("transducer_time")) = (pneu_real)1e-4;
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_changes_with(&u, model, MODELS, change, done, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
+  succeed(lab_unknowns_changes_with(&u, model, MODELS, change, done, &error));
   assert_true(done[LEAKING] && !done[LAGGING]);
-  assert_int_equal(lab_unknowns_change_with(&u, &model[LEAKING], r, other, &error), LAB_OK);
+  succeed(lab_unknowns_change_with(&u, &model[LEAKING], r, other, &error));
   assert_true(size_of(other, u.m) > 0);
   assert_close(distance(change, other, u.m), 0, 0.01, 0);
 }
@@ -1126,11 +1122,11 @@ TEST(test_lab_unknowns_begin_with__one_unknown_more__has_the_slopes_of_the_other
   int j, k;
   size_t i;
   open_measured();
-  assert_int_equal(lab_unknowns_keep_slopes(&u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_find_slopes(&u, &error), LAB_OK);
+  succeed(lab_unknowns_keep_slopes(&u, &error));
+  succeed(lab_unknowns_find_slopes(&u, &error));
   more = u;
-  assert_int_equal(lab_unknowns_add(&more, pneu_param_find("damping"), 900, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_keep_slopes(&more, &error), LAB_OK);
+  succeed(lab_unknowns_add(&more, pneu_param_find("damping"), 900, &error));
+  succeed(lab_unknowns_keep_slopes(&more, &error));
   lab_unknowns_begin_with(&more, &u);
   assert_int_equal(more.m, u.m + 1);
   for (j = 0; j < USUAL; j++) {
@@ -1151,10 +1147,10 @@ TEST(test_lab_unknowns_slope__at_its_upper_bound__stays_inside)
 {
   double seen[DATA + LAB_FIT_MAX];
   open_closely();
-  assert_int_equal(lab_unknowns_residuals(&u, theta, r, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_slope(&u, theta, r, SPRING, seen, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
+  succeed(lab_unknowns_slope(&u, theta, r, SPRING, seen, &error));
   u.unknown[SPRING].upper = theta[SPRING];
-  assert_int_equal(lab_unknowns_slope(&u, theta, r, SPRING, column, &error), LAB_OK);
+  succeed(lab_unknowns_slope(&u, theta, r, SPRING, column, &error));
   assert_true(distance(seen, column, u.m) > 0);
   assert_close(distance(seen, column, u.m), 0, 0.05, 0);
 }
@@ -1185,14 +1181,14 @@ TEST(test_lab_unknowns_fit__log_without_noise__finds_all_within_their_intervals)
   double chi2, before;
   int j;
   open_to_fit();
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
   before = size_of(r, u.m);
   assert_true(before > 10);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_residuals(&u, NULL, r, &error), LAB_OK);
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error));
+  succeed(lab_unknowns_residuals(&u, NULL, r, &error));
   assert_close(chi2, size_of(r, u.m) * size_of(r, u.m) * (double)u.m, 0, 1e-9);
   assert_between(chi2, 0, 4); /* priors: (0.015^2 + 0.005^2) 12/0.05^2 each run */
-  assert_int_equal(lab_unknowns_intervals(&u, &fit, &error), LAB_OK);
+  succeed(lab_unknowns_intervals(&u, &fit, &error));
   for (j = 0; j < USUAL; j++) {
     check_note("%s", u.unknown[j].name);
     assert_between(truth_of[j], fit.low[j], fit.high[j]);
@@ -1217,8 +1213,8 @@ TEST(test_lab_unknowns_fit__noisy_log__is_as_far_off_as_its_interval_says)
     p[i] += sigma_p * fixture_normal(&seed);
     x[i] += sigma_x * fixture_normal(&seed);
   }
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_intervals(&u, &fit, &error), LAB_OK);
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error));
+  succeed(lab_unknowns_intervals(&u, &fit, &error));
   assert_between(chi2 / (RUNS * 2.0 * (ROWS - FIRST_SWITCH)), 0.7, 1.3); /* four standard deviations */
   for (j = 0; j < USUAL; j++) {
     check_note("%s", u.unknown[j].name);
@@ -1264,8 +1260,8 @@ TEST(test_lab_unknowns_intervals__row_at_a_stop__leaves_the_scale_to_the_toleran
   fit_list("spring_rate", 0);
   open_empty();
   move_row_to_stop();
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_intervals(&u, &fit, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&u, &error));
+  succeed(lab_unknowns_intervals(&u, &fit, &error));
   spring = lab_unknowns_find(&u, index_of("spring_rate"));
   assert_between(fit.deviation[spring] / u.unknown[spring].value, 0.018, 0.022);
 }
@@ -1286,8 +1282,8 @@ TEST(test_lab_unknowns_fit__knots__find_the_term_that_made_the_log)
   for (i = 0; i < 3; i++)
     truth.term[0].value[i + 1] = (pneu_real)want[i];
   measure(&truth);
-  assert_int_equal(lab_unknowns_add_term(&u, &flat, 100, 1, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
+  succeed(lab_unknowns_add_term(&u, &flat, 100, 1, &error));
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error));
   assert_between(chi2, 0, 0.1);
   for (i = 0; i < 3; i++) {
     assert_close(u.unknown[RUNS * SWITCHES + i].value, want[i], 3, 0);
@@ -1312,8 +1308,8 @@ TEST(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes)
   truth.n_terms = 1;
   truth.term[0] = truth_term;
   measure(&truth);
-  assert_int_equal(lab_unknowns_add_term(&u, &start, 100, 0, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
+  succeed(lab_unknowns_add_term(&u, &start, 100, 0, &error));
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error));
   assert_between(chi2, 0, 0.1);
   assert_close(u.unknown[first].value, 80, 1, 0);
   assert_close(u.unknown[first + 1].value, -60, 1, 0);

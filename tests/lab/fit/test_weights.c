@@ -6,7 +6,6 @@
 
 enum { ROWS = 400 };
 
-static lab_error error;
 static lab_rig rig;
 static lab_log one_log;
 static lab_run run;
@@ -38,9 +37,9 @@ static void open_with(double share, double noise)
   rig.noise[LAB_CHANNEL_X] = noise;
   fixture_set(&rig.params, "positioner.gain", 20);
   rig.fit[rig.n_fit++] = pneu_param_find("positioner.gain");
-  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &one_log, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &one_log, 0, &run, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
+  succeed(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &one_log, &error));
+  succeed(lab_run_open(&rig, &one_log, 0, &run, &error));
+  succeed(lab_unknowns_open(&rig, &run, 1, &u, &error));
 }
 
 /* Next to nothing: its stem stays where it is. */
@@ -55,7 +54,7 @@ static double memory_told(int follows, double noise)
   int any;
   write_log(follows);
   open_stuck(noise);
-  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  succeed(lab_weigh_runs(&u, &run, &any, &error));
   memory = run.colour[0].memory;
   lab_run_close(&run);
   lab_log_free(&one_log);
@@ -78,10 +77,10 @@ TEST(test_lab_weigh_runs__clock_that_is_declared__counts_as_it_is)
   write_log(0);
   open_stuck(3e-4);
   rig.noise[LAB_CHANNEL_TIME] = 0.05;
-  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  succeed(lab_weigh_runs(&u, &run, &any, &error));
   assert_true(any);
   assert_close(run.jitter, 0.05, 0, 0);
-  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  succeed(lab_weigh_runs(&u, &run, &any, &error));
   assert_close(run.jitter, 0.05, 0, 0);
   lab_run_close(&run);
   lab_log_free(&one_log);
@@ -94,7 +93,7 @@ TEST(test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once)
   double plain, sigma;
   write_log(1);
   open_stuck(2e-4);
-  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  succeed(lab_weigh_runs(&u, &run, &any, &error));
   plain = run.sigma[0];
   lab_run_close(&run);
   lab_log_free(&one_log);
@@ -102,10 +101,10 @@ TEST(test_lab_weigh_runs__memory_that_is_none_after_all__is_news_once)
   run.colour[0].memory = run.colour[0].share = 0.3;
   run.sigma[0] *= 1.5;
   run.raised[0] = 1.5;
-  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  succeed(lab_weigh_runs(&u, &run, &any, &error));
   assert_close(run.colour[0].memory, 0, 0, 0);
   assert_close(run.raised[0], 0, 0, 0);
-  assert_int_equal(lab_weigh_runs(&u, &run, &again, &error), LAB_OK);
+  succeed(lab_weigh_runs(&u, &run, &again, &error));
   sigma = run.sigma[0];
   lab_run_close(&run);
   lab_log_free(&one_log);
@@ -135,7 +134,7 @@ TEST(test_lab_weigh_runs__noise_taken_for_too_much__is_what_is_left)
   for (told = 0; told < 2; told++) {
     open_stuck(told > 0 ? 5e-4 : (double)NAN);
     run.sigma[0] = 5e-4;
-    assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+    succeed(lab_weigh_runs(&u, &run, &any, &error));
     assert_close(run.sigma[0], told > 0 ? 5e-4 : 5e-5, told > 0 ? 0 : 5e-6, 0);
     lab_run_close(&run);
     lab_log_free(&one_log);
@@ -160,7 +159,7 @@ static double noise_of_walk(double memory)
   }
   fclose(file);
   open_with(1, (double)NAN);
-  assert_int_equal(lab_weigh_runs(&u, &run, &any, &error), LAB_OK);
+  succeed(lab_weigh_runs(&u, &run, &any, &error));
   sigma = run.sigma[0];
   lab_run_close(&run);
   lab_log_free(&one_log);

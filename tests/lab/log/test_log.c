@@ -4,7 +4,6 @@
 #include "../../../apps/lab/log/log.h"
 #include "../../../apps/lab/log/logread.h"
 
-static lab_error error;
 static lab_log_format format;
 static lab_log rows;                  /* of the log that was read last */
 static const double ambient = 100000; /* [Pa] */
@@ -35,11 +34,8 @@ static void read_log(const char *text)
 static void assert_refused(const char *text, const char *place, const char *words)
 {
   lab_log log;
-  if (lab_log_read(scratch_text("log.csv", text), &format, ambient, &log, &error) == LAB_OK)
-    fail_msg("a log was read that should say \"%s\"", words);
-  assert_int_equal(error.status, LAB_DATA);
+  assert_fails(lab_log_read(scratch_text("log.csv", text), &format, ambient, &log, &error), LAB_DATA, words);
   assert_contains(error.text, place);
-  assert_contains(error.text, words);
   assert_null(log.line);
   assert_null(log.value[LAB_CHANNEL_TIME]);
 }
@@ -452,8 +448,7 @@ CASE(test_lab_log_read__name_of_the_file__tells_a_channel)
   set_columns("t [s]", "p [bar]", NULL);
   strcpy(format.name[LAB_CHANNEL_X], "_l [dm]");
   strcpy(format.name[LAB_CHANNEL_PS], "_p [bar]");
-  assert_int_equal(lab_log_read(scratch_text("tube_l3_p4.5_start.csv", "0,1\n1,2\n"), &format, ambient, &rows, &error),
-                   LAB_OK);
+  succeed(lab_log_read(scratch_text("tube_l3_p4.5_start.csv", "0,1\n1,2\n"), &format, ambient, &rows, &error));
   assert_column(X, 1e-15, 0.3, 0.3);
   assert_column(PS, 1e-9, 4.5e5, 4.5e5);
   assert_refused("0,1\n1,2\n", "log.csv", "\"_l\" and a number in the file's name");
@@ -567,22 +562,20 @@ CASE(test_lab_log_read__lead_after_the_first_row__is_refused)
 
 CASE(test_lab_log_read__missing_file__says_so)
 {
-  assert_int_equal(lab_log_read(scratch_path("none.csv"), &format, ambient, &rows, &error), LAB_DATA);
-  assert_contains(error.text, "none.csv: there is no such file");
+  assert_fails(lab_log_read(scratch_path("none.csv"), &format, ambient, &rows, &error), LAB_DATA,
+               "none.csv: there is no such file");
 }
 
 CASE(test_lab_log_read__folder__says_so)
 {
-  assert_int_equal(lab_log_read(scratch_folder, &format, ambient, &rows, &error), LAB_DATA);
-  assert_contains(error.text, "this is a folder");
+  assert_fails(lab_log_read(scratch_folder, &format, ambient, &rows, &error), LAB_DATA, "this is a folder");
 }
 
 CASE(test_lab_log_read__file_that_fails_to_read__is_the_worlds_fault)
 {
   if (access("/proc/self/mem", R_OK) != 0)
     skip();
-  assert_int_equal(lab_log_read("/proc/self/mem", &format, ambient, &rows, &error), LAB_WORLD);
-  assert_contains(error.text, "cannot be read");
+  assert_fails(lab_log_read("/proc/self/mem", &format, ambient, &rows, &error), LAB_WORLD, "cannot be read");
 }
 
 CASE(test_lab_log_read__forbidden_file__is_the_worlds_fault)
@@ -639,9 +632,8 @@ CASE(test_lab_log_read__bad_file__says_what_is_wrong)
 CASE(test_lab_log_read__zero_bytes__are_not_text)
 {
   const char bytes[] = "t [s],u [1]\n0,0\n1\0,0\n";
-  assert_int_equal(lab_log_read(scratch_bytes("log.csv", bytes, sizeof bytes - 1), &format, ambient, &rows, &error),
-                   LAB_DATA);
-  assert_contains(error.text, "log.csv:3:");
+  assert_fails(lab_log_read(scratch_bytes("log.csv", bytes, sizeof bytes - 1), &format, ambient, &rows, &error),
+               LAB_DATA, "log.csv:3:");
   assert_contains(error.text, "0 byte");
 }
 

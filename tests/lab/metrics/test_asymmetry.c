@@ -1,11 +1,9 @@
 /* apps/lab/metrics/asymmetry: how strokes differ */
-#include "../../check.h"
+#include "../../words.h"
 
 #include <math.h>
 
 #include "../../../apps/lab/metrics/asymmetry.h"
-
-static lab_error error;
 
 enum { SAMPLES = 4001 };
 
@@ -48,7 +46,7 @@ static lab_asymmetry compare(double (*rise)(double), double (*fall)(double))
   static drawn up, down;
   const lab_edge a = draw(&up, rise, 0), b = draw(&down, fall, 1);
   lab_asymmetry r;
-  assert_int_equal(lab_asymmetry_measure(&a, &b, &r, &error), LAB_OK);
+  succeed(lab_asymmetry_measure(&a, &b, &r, &error));
   return r;
 }
 

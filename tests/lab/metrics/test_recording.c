@@ -10,7 +10,6 @@
 enum { ROWS = 5401 };
 static const double spacing = 0.01; /* [s] */
 
-static lab_error error;
 static lab_rig rig;
 static lab_log logged;
 static lab_run run;

@@ -11,7 +11,6 @@ static const double spacing = 0.05; /* [s] */
 static lab_rig rig;
 static lab_log seen;
 static lab_run run;
-static lab_error error;
 
 /* The log, its command after some rest, and its first stroke soon after that, of a rig with 1.2 times the declared
  * preload. */
@@ -34,9 +33,9 @@ TEST(test_lab_judge__unseen_log__tells_its_own_value_by_its_start)
   lab_errors shared, own;
   size_t i;
   open_log(0.402);
-  assert_int_equal(lab_judge(&rig, &run, 1, &shared, &error), LAB_OK);
+  succeed(lab_judge(&rig, &run, 1, &shared, &error));
   rig.fit_per_log[0] = 1;
-  assert_int_equal(lab_judge(&rig, &run, 1, &own, &error), LAB_OK);
+  succeed(lab_judge(&rig, &run, 1, &own, &error));
   assert_true(own.in_noise[LAB_CHANNEL_X] < 0.25 * shared.in_noise[LAB_CHANNEL_X]);
   assert_int_equal(shared.n, 2 * ROWS);
   assert_int_equal(own.n, 2 * (ROWS - FEW)); /* its first tenth is not judged */
@@ -49,9 +48,9 @@ TEST(test_lab_judge__log_that_rests_for_long__starts_until_it_has_moved)
 {
   lab_errors shared, own;
   open_log(5.002);
-  assert_int_equal(lab_judge(&rig, &run, 1, &shared, &error), LAB_OK);
+  succeed(lab_judge(&rig, &run, 1, &shared, &error));
   rig.fit_per_log[0] = 1;
-  assert_int_equal(lab_judge(&rig, &run, 1, &own, &error), LAB_OK);
+  succeed(lab_judge(&rig, &run, 1, &own, &error));
   assert_in_range(own.n, 2 * (ROWS - 125), 2 * (ROWS - 101));
   assert_true(own.in_noise[LAB_CHANNEL_X] < 0.5 * shared.in_noise[LAB_CHANNEL_X]);
 }
@@ -63,7 +62,7 @@ TEST(test_lab_weigh_unseen__rows_that_move__weigh_less)
   double least = 1, fastest = 0;
   size_t i;
   open_log(0.402);
-  assert_int_equal(lab_weigh_unseen(&rig, jitter, &run, 1, &error), LAB_OK);
+  succeed(lab_weigh_unseen(&rig, jitter, &run, 1, &error));
   for (i = 1; i + 1 < ROWS; i++) {
     const double *x = seen.value[LAB_CHANNEL_X];
     fastest = fmax(fastest, fabs(x[i + 1] - x[i - 1]) / (2 * spacing));

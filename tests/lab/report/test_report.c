@@ -10,7 +10,6 @@
 enum { ROWS = 1001 };
 static const double spacing = 0.01; /* [s] */
 
-static lab_error error;
 static lab_rig rig;
 static lab_log logged;
 static lab_run run[2];
@@ -75,17 +74,17 @@ static int begin_report(void **state)
   lab_search_options_default(&options);
   options.max_effects = 1;
   virtual_open(&rig, write_log("a&b.csv"), &logged, &run[0]);
-  assert_int_equal(lab_unknowns_open(&rig, run, 1, &declared, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&declared, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, run, 1, &declared, &error));
+  succeed(lab_unknowns_fit(&declared, LAB_ROUNDS_ALL, NULL, &error));
   completed = declared;
-  assert_int_equal(lab_search_run(&completed, &options, &result, &error), LAB_OK);
+  succeed(lab_search_run(&completed, &options, &result, &error));
   report.rig = &rig;
   report.declared = &declared;
   report.completed = &completed;
   report.result = &result;
   report.measured = &measured;
   report.predicted = &predicted;
-  assert_int_equal(lab_metrics_compare(&completed, &measured, &predicted, &error), LAB_OK);
+  succeed(lab_metrics_compare(&completed, &measured, &predicted, &error));
   return 0;
 }
 
@@ -95,10 +94,9 @@ static void write_report(const lab_report *told, const char *folder)
 {
   lab_figures *figures;
   mkdir(folder, 0777);
-  assert_int_equal(lab_figures_make(told, &figures, &error), LAB_OK);
-  assert_int_equal(lab_figures_draw(figures, folder, 1, &error), LAB_OK);
-  assert_int_equal(lab_report_file(folder, "report.html", lab_report_html, &(lab_sources){told, figures}, &error),
-                   LAB_OK);
+  succeed(lab_figures_make(told, &figures, &error));
+  succeed(lab_figures_draw(figures, folder, 1, &error));
+  succeed(lab_report_file(folder, "report.html", lab_report_html, &(lab_sources){told, figures}, &error));
   lab_figures_free(figures);
 }
 
@@ -122,9 +120,7 @@ static const char *page_of(const lab_report *told, const char *folder)
 static const char *json_of(const lab_report *told, const char *folder)
 {
   mkdir(scratch_path(folder), 0777);
-  assert_int_equal(
-      lab_report_file(scratch_path(folder), "report.json", lab_report_json, &(lab_sources){told, NULL}, &error),
-      LAB_OK);
+  succeed(lab_report_file(scratch_path(folder), "report.json", lab_report_json, &(lab_sources){told, NULL}, &error));
   return read_back(folder, "report.json");
 }
 
@@ -285,7 +281,7 @@ TEST(test_lab_report_html__curves__are_the_rows)
   cJSON *all = curves_of(the_page()), *panel;
   lab_residual_table v;
   int c, k, i, n, gaps = 0;
-  assert_int_equal(lab_residual_table_collect(&report, &v, &error), LAB_OK);
+  succeed(lab_residual_table_collect(&report, &v, &error));
   for (c = 0; c < 2; c++) {
     const double *const rows[] = {v.channel[c].measured, v.channel[c].predicted[LAB_STAGE_BEFORE],
                                   v.channel[c].predicted[LAB_STAGE_AFTER]};
@@ -330,14 +326,14 @@ TEST(test_lab_signature_make__effects_of_forces__balance_by_hand)
   int i;
   lab_rig_default(&r);
   set_effect(&r, PNEU_PARAM_external_force, 100);
-  assert_int_equal(lab_signature_make(&r, &s, &error), LAB_OK);
+  succeed(lab_signature_make(&r, &s, &error));
   assert_close(s.bench_lower, (k * x0 + 100) / area, 0, 1e-9);
   assert_close(s.bench_upper, (k * (stroke + x0) + 100) / area, 0, 1e-9);
   assert_close(s.spring_rate, k, 0, 1e-9);
   assert_close(s.band, 2 * F / area, 0, 1e-9);
   set_effect(&r, PNEU_PARAM_BASE_COUNT + PNEU_AT_friction_pressure, f);
   set_effect(&r, PNEU_PARAM_BASE_COUNT + PNEU_AT_area_variation, a);
-  assert_int_equal(lab_signature_make(&r, &s, &error), LAB_OK);
+  succeed(lab_signature_make(&r, &s, &error));
   for (i = 0; i < LAB_SIGNATURE_POINTS; i += 10) {
     const double x = stroke * i / (LAB_SIGNATURE_POINTS - 1), acts = area * (1 - a * x / stroke);
     const double spring = k * (x + x0) + 100;
@@ -471,9 +467,9 @@ TEST(test_lab_report_html__nothing_found_two_runs__is_told_as_well)
   static lab_search_result nothing;
   lab_report told = report;
   run[1] = run[0];
-  assert_int_equal(lab_unknowns_open(&rig, run, 2, &both, &error), LAB_OK);
-  assert_int_equal(lab_search_measure(&both, LAB_STAGE_BEFORE, &nothing, &error), LAB_OK);
-  assert_int_equal(lab_search_measure(&both, LAB_STAGE_AFTER, &nothing, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, run, 2, &both, &error));
+  succeed(lab_search_measure(&both, LAB_STAGE_BEFORE, &nothing, &error));
+  succeed(lab_search_measure(&both, LAB_STAGE_AFTER, &nothing, &error));
   nothing.fit.n = both.n;
   nothing.verdict = LAB_VERDICT_UNDECIDED;
   told.declared = told.completed = &both;
@@ -505,8 +501,8 @@ TEST(test_lab_report_html__pressure_not_measured__is_said)
   fclose(to);
   virtual_open(&rig, path, &log, &travel);
   lab_unknowns_none(&rig, &travel, 1, &one);
-  assert_int_equal(lab_search_measure(&one, LAB_STAGE_BEFORE, &nothing, &error), LAB_OK);
-  assert_int_equal(lab_search_measure(&one, LAB_STAGE_AFTER, &nothing, &error), LAB_OK);
+  succeed(lab_search_measure(&one, LAB_STAGE_BEFORE, &nothing, &error));
+  succeed(lab_search_measure(&one, LAB_STAGE_AFTER, &nothing, &error));
   told.declared = told.completed = &one;
   told.result = &nothing;
   told.measured = NULL;
@@ -553,13 +549,13 @@ TEST(test_lab_report_html__noise_with_memory__is_noise_as_the_verdict_has_it)
   int any;
   lab_search_options_default(&options);
   virtual_open(&rig, write_log_with_memory("memory.csv"), &log, &own);
-  assert_int_equal(lab_unknowns_open(&rig, &own, 1, &fitted, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&fitted, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
-  assert_int_equal(lab_weigh_runs(&fitted, &own, &any, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, &own, 1, &fitted, &error));
+  succeed(lab_unknowns_fit(&fitted, LAB_ROUNDS_ALL, NULL, &error));
+  succeed(lab_weigh_runs(&fitted, &own, &any, &error));
   assert_true(any);
-  assert_int_equal(lab_unknowns_fit(&fitted, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  succeed(lab_unknowns_fit(&fitted, LAB_ROUNDS_ALL, NULL, &error));
   after = fitted;
-  assert_int_equal(lab_search_run(&after, &options, &outcome, &error), LAB_OK);
+  succeed(lab_search_run(&after, &options, &outcome, &error));
   assert_int_equal(outcome.verdict, LAB_VERDICT_NONE);
   told.rig = &rig;
   told.declared = &fitted;
@@ -601,7 +597,7 @@ TEST(test_lab_residual_table_collect__leak__white_only_when_completed)
 {
   lab_residual_table v;
   int c;
-  assert_int_equal(lab_residual_table_collect(&report, &v, &error), LAB_OK);
+  succeed(lab_residual_table_collect(&report, &v, &error));
   assert_int_equal(v.n, ROWS);
   assert_int_equal(v.n_channels, 2);
   for (c = 0; c < 2; c++) {

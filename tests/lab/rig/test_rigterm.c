@@ -4,8 +4,6 @@
 #include "../../../apps/lab/run/run.h"
 #include "../../../apps/lab/rig/rigterm.h"
 
-static lab_error error;
-
 static const char declared[] =
     "laws = { gas = \"energy\"; };\n"
     "unlisted = (\n"
@@ -78,7 +76,7 @@ TEST(test_lab_rig_read__cycle__becomes_a_term_over_time)
   assert_term(&rig.term[0], PNEU_TERM_SUPPLY, PNEU_TERM_OVER_CYCLE, 0, 0.25, 4);
   assert_close(rig.term[0].value[1], -3500, 0, 1e-14);
   assert_close(rig.term[0].value[2], 2000, 0, 1e-14);
-  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  succeed(lab_rig_model(&rig, &model, &error));
   assert_int_equal(model.clock, 0);
 }
 
@@ -274,10 +272,10 @@ TEST(test_lab_rig_model__terms__are_those_of_the_rig)
 {
   const lab_rig rig = read_rig(declared), copy = rig;
   pneu_model model;
-  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  succeed(lab_rig_model(&rig, &model, &error));
   assert_int_equal(model.n_terms, 4);
   assert_ptr_equal(model.term, rig.term);
-  assert_int_equal(lab_rig_model(&copy, &model, &error), LAB_OK);
+  succeed(lab_rig_model(&copy, &model, &error));
   assert_ptr_equal(model.term, copy.term);
 }
 
@@ -286,8 +284,7 @@ TEST(test_lab_rig_model__bad_term__is_refused)
   lab_rig rig = read_rig(declared);
   pneu_model model;
   rig.term[1].value[1] = (pneu_real)NAN;
-  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_DATA);
-  assert_contains(error.text, "unlisted: parameter outside its bounds or not finite");
+  assert_fails(lab_rig_model(&rig, &model, &error), LAB_DATA, "unlisted: parameter outside its bounds or not finite");
 }
 
 /* A prediction makes its model from a copy of the rig: a vessel that fills by a constant flow, p' = q R T/V. */
@@ -302,9 +299,9 @@ TEST(test_lab_run_predict__terms__are_in_the_prediction)
   double y[4];
   int i;
   scratch_text("log.csv", "t [s],u [1],p [Pa]\n0,0,0\n1,0,0\n2,0,0\n3,0,0\n");
-  assert_int_equal(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log, &error), LAB_OK);
-  assert_int_equal(lab_run_open(&rig, &log, 0, &run, &error), LAB_OK);
-  assert_int_equal(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, NULL, 1e-8, y, &error), LAB_OK);
+  succeed(lab_log_read(scratch_path("log.csv"), &rig.log, 101325, &log, &error));
+  succeed(lab_run_open(&rig, &log, 0, &run, &error));
+  succeed(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, NULL, 1e-8, y, &error));
   for (i = 1; i < 4; i++)
     assert_close(y[i] - y[0], slope * i, 1e-3, 1e-6);
   lab_run_close(&run);

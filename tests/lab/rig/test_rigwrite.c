@@ -12,7 +12,6 @@
 
 enum { RIGS = 4000 };
 
-static lab_error error;
 static lab_rig rig, again;
 
 /* ---- Draws ---- */
@@ -370,8 +369,7 @@ TEST(test_lab_rig_drop_idle__trace_of_what_cannot_act__is_gone_and_the_rest_stay
   lab_rig_default(&rig);
   *pneu_param_at(&rig.params, idle) = 1e-10;
   *pneu_param_at(&rig.params, acts) = 30;
-  assert_int_equal(lab_rig_read(put_file("trace.cfg", put_model), &again, &error), LAB_DATA);
-  assert_contains(error.text, "position_time does nothing");
+  assert_fails(lab_rig_read(put_file("trace.cfg", put_model), &again, &error), LAB_DATA, "position_time does nothing");
   lab_rig_drop_idle(&rig);
   succeed(lab_rig_read(put_file("no_trace.cfg", put_model), &again, &error));
   assert_close(*pneu_param_at(&again.params, idle), 0, 0, 0);

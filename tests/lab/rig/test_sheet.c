@@ -4,8 +4,6 @@
 
 #include "../../../apps/lab/log/log.h"
 
-static lab_error error;
-
 static const char *const sheet =
     "actuator = { area = \"400 cm^2\"; stroke = \"20 mm\"; };\nsupply = { pressure = \"4 bar\"; };\n";
 
@@ -56,7 +54,7 @@ static void read_opening(const char *fail, double x[2], double sp[2])
   snprintf(text, sizeof text, "actuator = { area = \"400 cm^2\"; stroke = \"20 mm\"; %s };", fail);
   rig = read_sheet(text, "choked");
   for (again = 0; again < 2; again++) {
-    assert_int_equal(lab_log_read(log_path, &rig.log, 101325, &log, &error), LAB_OK);
+    succeed(lab_log_read(log_path, &rig.log, 101325, &log, &error));
     x[again] = log.value[LAB_CHANNEL_X][0];
     sp[again] = log.value[LAB_CHANNEL_SP][1];
     assert_close(log.value[LAB_CHANNEL_X][1], 0.01, 0, 1e-12);
@@ -116,7 +114,7 @@ TEST(test_lab_sheet_read__C__comes_back_from_the_library)
 {
   lab_rig rig = read_sheet("transducer = { fill = { C = 5e-9; b = 0.25; }; vent = { Kv = 0.1; }; };", "iso6358");
   pneu_model model;
-  assert_int_equal(lab_rig_model(&rig, &model, &error), LAB_OK);
+  succeed(lab_rig_model(&rig, &model, &error));
   assert_close((double)pneu_sonic_conductance(&model, rig.params.fill_area), 5e-9, 0,
                2e-4); /* R of dry air or of [B] */
   assert_close((double)rig.params.critical_ratio, 0.25, 0, 1e-6);

@@ -1,6 +1,7 @@
 /* Every effect, and free terms that sample what has no effect here, against the independent implementation of
  * tests/second: the same parameters, the same random commands, the same measured channels. */
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/base/text.h"
 #include "../../../apps/lab/run/response.h"
@@ -383,7 +384,6 @@ static lab_response respond(const run *e)
   pneu_input input[CHANGES];
   double t[SAMPLES];
   lab_response response;
-  lab_error error;
   pneu_state start;
   const lab_simulation task = {
       .start = &start, .schedule = &schedule, .t = t, .n = SAMPLES, .t_end = t_end, .options = {.tol = 1e-9}};
@@ -399,8 +399,7 @@ static lab_response respond(const run *e)
   schedule.t = e->t;
   schedule.input = input;
   start = fixture_rest(&m, 0, 0, &input[0]);
-  if (lab_response_run(&m, &task, &response, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_response_run(&m, &task, &response, &error));
   return response;
 }
 
@@ -729,7 +728,7 @@ static double interpolation_error(const term_case *c, const second_rig *g, const
 }
 
 /* How far a constant error of the first term, of either sign, moves the response. */
-static apart moved_by(const run *e, double error)
+static apart moved_by(const run *e, double by)
 {
   run off = *e;
   lab_response base = respond(e);
@@ -740,7 +739,7 @@ static apart moved_by(const run *e, double error)
   off.term[1].n = 2;
   for (sign = -1; sign <= 1; sign += 2) {
     lab_response response;
-    off.term[1].value[0] = off.term[1].value[1] = (pneu_real)(sign * error);
+    off.term[1].value[0] = off.term[1].value[1] = (pneu_real)(sign * by);
     response = respond(&off);
     for (i = 0; i < SAMPLES; i++)
       widen(&most, response.p[i] - base.p[i], response.x[i] - base.x[i], response.T[i] - base.T[i]);

@@ -1,11 +1,11 @@
 /* Responses to schedules: delays of command and of position, and the clock of what comes in cycles. */
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/run/response.h"
 
 enum { SAMPLES = 301 };
 static const double dt = 0.01, t_end = 3;
-static lab_error error;
 
 /* A schedule on the stroke of the R1-400, with a supply that changes on its own, and while the command does not. */
 enum { ROWS = 6 };
@@ -24,8 +24,7 @@ static pneu_input input_of(const pneu_model *m, int i, int j)
 static lab_response run(const pneu_model *m, const lab_simulation *task)
 {
   lab_response response;
-  if (lab_response_run(m, task, &response, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_response_run(m, task, &response, &error));
   return response;
 }
 
@@ -287,7 +286,7 @@ TEST(test_lab_response_run__statistics_only__needs_no_trace)
   input[0] = fixture_input(&m, 0);
   input[1] = fixture_input(&m, 1);
   start = fixture_rest(&m, 0, 0, &input[0]);
-  assert_int_equal(lab_response_run(&m, &task, NULL, &error), LAB_OK);
+  succeed(lab_response_run(&m, &task, NULL, &error));
   assert_true(stats.steps > 10);
 }
 

@@ -1,5 +1,6 @@
 /* The standard experiment: the stepper against CVODE and against a model that shares no code with it. */
 #include "../../fixture.h"
+#include "../../words.h"
 #include "../../second/rig.h"
 
 enum { ROWS = 3051, CASES = 8 };
@@ -64,7 +65,6 @@ static void run_lab(const experiment *e, int integrator, double tol, lab_respons
   pneu_state start;
   lab_schedule schedule;
   lab_simulation task = {.start = &start, .schedule = &schedule, .t = times, .n = ROWS, .t_end = 30.5, .stats = stats};
-  lab_error error;
   int i;
   for (i = 0; i < 3; i++)
     input[i] = fixture_input(&m, i == 0 ? 0 : i == 1 ? 1 : -1);

@@ -1,5 +1,6 @@
 /* What nearby runs differ by, beside differences of exact runs. */
 #include "../../fixture.h"
+#include "../../words.h"
 
 #include "../../../apps/lab/run/response.h"
 
@@ -55,24 +56,22 @@ static void prepare(const drive *d, double tol, cast *c)
 /* Response of one, exactly. */
 static void respond(const drive *d, lab_response *response)
 {
-  lab_error error;
   cast c;
   prepare(d, 1e-10, &c);
-  assert_int_equal(lab_response_run(&d->model, &c.task, response, &error), LAB_OK);
+  succeed(lab_response_run(&d->model, &c.task, response, &error));
 }
 
 /* What `there` has beyond `here`, from one run. */
 static void vary(const drive *here, const drive *there, lab_response *change)
 {
   lab_response response;
-  lab_error error;
   cast base, nearby;
   prepare(here, 1e-6, &base);
   prepare(there, 1e-6, &nearby);
   base.task.nearby = &nearby.task;
   base.task.n_nearby = 1;
   base.task.change = change;
-  assert_int_equal(lab_response_run(&here->model, &base.task, &response, &error), LAB_OK);
+  succeed(lab_response_run(&here->model, &base.task, &response, &error));
   lab_response_free(&response);
 }
 

@@ -19,14 +19,13 @@ typedef struct held_log {
 /* Record 14 s of a rig, and fit its declared model, the orifices unknown.  In/out: h  static */
 static inline void held_open(held_log *h, const second_rig *truth)
 {
-  lab_error error = {0, ""};
   virtual_record(truth, NULL, 0, scratch_path("log.csv"));
   virtual_declare(&h->rig);
   h->rig.fit[h->rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   virtual_open(&h->rig, scratch_path("log.csv"), &h->log, &h->run);
   memset(&h->c, 0, sizeof h->c);
-  assert_int_equal(lab_unknowns_open(&h->rig, &h->run, 1, &h->c.u, &error), LAB_OK);
-  assert_int_equal(lab_candidate_hold(&h->c, &error), LAB_OK);
+  succeed(lab_unknowns_open(&h->rig, &h->run, 1, &h->c.u, &error));
+  succeed(lab_candidate_hold(&h->c, &error));
   assert_true(h->c.quality.fitted);
 }
 
@@ -35,9 +34,8 @@ static inline void held_add(held_log *h, const char *param, double size)
 {
   const int index = pneu_param_find(param);
   const lab_score score = {.effect = pneu_effect_of(index), .param = index, .shape = -1};
-  lab_error error = {0, ""};
-  assert_int_equal(lab_candidate_add_effect(&h->c, &score, size, &error), LAB_OK);
-  assert_int_equal(lab_candidate_fit(&h->c, LAB_ROUNDS_ALL, &error), LAB_OK);
+  succeed(lab_candidate_add_effect(&h->c, &score, size, &error));
+  succeed(lab_candidate_fit(&h->c, LAB_ROUNDS_ALL, &error));
 }
 
 #endif

@@ -9,7 +9,6 @@ static lab_log run_log;
 static lab_run run;
 static lab_candidate c;
 static lab_fit_result fit;
-static lab_error error;
 
 /* A fit of the declared leak, and the friction, to a log.  In: leak  of the rig, over its vent orifice */
 static void open_log(double leak)
@@ -25,9 +24,9 @@ static void open_log(double leak)
   virtual_record_brief(&g, path);
   virtual_open(&rig, path, &run_log, &run);
   memset(&c, 0, sizeof c);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &c.u, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, &run, 1, &c.u, &error));
   lab_unknowns_view(&c.u, 0);
-  assert_int_equal(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error), LAB_OK);
+  succeed(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error));
 }
 
 static const lab_unknown *leak_of(void)
@@ -44,11 +43,11 @@ TEST(test_lab_absent_find__leak_that_is_not_there__rests)
   open_log(0);
   bic = c.quality.bic;
   assert_false(lab_unknown_rests(leak_of()));
-  assert_int_equal(lab_absent_find(&c, &any, &error), LAB_OK);
+  succeed(lab_absent_find(&c, &any, &error));
   assert_true(any && lab_unknown_is_absent(leak_of()));
   assert_true(c.quality.bic <= bic);
   assert_true(leak_of()->value == 0);
-  assert_int_equal(lab_unknowns_intervals(&c.u, &fit, &error), LAB_OK);
+  succeed(lab_unknowns_intervals(&c.u, &fit, &error));
   j = lab_unknowns_find(&c.u, pneu_param_find("chamber_leak.leak_area"));
   assert_close(fit.low[j], 0, 0, 0);
   assert_between(fit.high[j], 1e-15, largest * (double)rig.params.vent_area);
@@ -59,7 +58,7 @@ TEST(test_lab_absent_find__leak_that_is_there__stays)
 {
   int any;
   open_log(0.01);
-  assert_int_equal(lab_absent_find(&c, &any, &error), LAB_OK);
+  succeed(lab_absent_find(&c, &any, &error));
   assert_false(any || lab_unknown_rests(leak_of()));
   assert_close(leak_of()->value, 0.01 * (double)rig.params.vent_area, 0, 0.05);
 }

@@ -11,7 +11,6 @@ static lab_log logs[LOGS];
 static lab_run run[LOGS];
 static lab_unknowns u;
 static lab_apart apart;
-static lab_error error;
 
 /* The logs of two rigs, fitted, and what differs between them. */
 static void find(const second_rig *first, const second_rig *second, int n)
@@ -26,9 +25,9 @@ static void find(const second_rig *first, const second_rig *second, int n)
     virtual_record_brief(of[i], path);
     virtual_open(&rig, path, &logs[i], &run[i]);
   }
-  assert_int_equal(lab_unknowns_open(&rig, run, n, &u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
-  assert_int_equal(lab_apart_find(&u, &apart, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, run, n, &u, &error));
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
+  succeed(lab_apart_find(&u, &apart, &error));
 }
 
 TEST(test_lab_apart_find__preload_set_anew__is_of_each_log)
@@ -80,12 +79,12 @@ TEST(test_lab_apart_search__preload_set_anew__is_the_answer)
   find(&first, &second, LOGS);
   lab_search_options_default(&options);
   completed = u;
-  assert_int_equal(lab_search_measure(&u, LAB_STAGE_BEFORE, &result, &error), LAB_OK);
-  assert_int_equal(lab_search_measure(&u, LAB_STAGE_AFTER, &result, &error), LAB_OK);
+  succeed(lab_search_measure(&u, LAB_STAGE_BEFORE, &result, &error));
+  succeed(lab_search_measure(&u, LAB_STAGE_AFTER, &result, &error));
   result.verdict = LAB_VERDICT_UNDECIDED;
   result.n_path = 1;
   before = result.before.chi2;
-  assert_int_equal(lab_apart_search(&apart, &options, &bench, &completed, &result, &error), LAB_OK);
+  succeed(lab_apart_search(&apart, &options, &bench, &completed, &result, &error));
   assert_int_equal(result.verdict, LAB_VERDICT_NONE);
   assert_int_equal(result.n_own, 1);
   assert_int_equal(result.own[0], PNEU_PARAM_spring_preload);

@@ -12,7 +12,6 @@ static lab_rig rig;
 static lab_log logs[LOGS];
 static lab_run run[LOGS];
 static lab_candidate c;
-static lab_error error;
 
 /* n logs, some with a leak, and a leak found beside the declared model. Where all leak, a stiffer spring leaves more
  * than noise. */
@@ -31,14 +30,14 @@ static void open_logs(const int leaks[LOGS], int n)
     virtual_open(&rig, path, &logs[e], &run[e]);
   }
   memset(&c, 0, sizeof c);
-  assert_int_equal(lab_unknowns_open(&rig, run, n, &c.u, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, run, n, &c.u, &error));
   found = lab_candidate_add_found(&c);
   found->effect = pneu_effect_find("chamber_leak");
   found->param = pneu_param_find("chamber_leak.leak_area");
   found->term = -1;
-  assert_int_equal(lab_unknowns_add(&c.u, found->param, 1e-8, &error), LAB_OK);
+  succeed(lab_unknowns_add(&c.u, found->param, 1e-8, &error));
   lab_unknowns_view(&c.u, 0);
-  assert_int_equal(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error), LAB_OK);
+  succeed(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error));
   assert_false(lab_is_noise(&c.quality));
 }
 
@@ -46,7 +45,7 @@ static int is_pruned(const int leaks[LOGS], int n)
 {
   int any;
   open_logs(leaks, n);
-  assert_int_equal(lab_carry_prune(&c, &any, &error), LAB_OK);
+  succeed(lab_carry_prune(&c, &any, &error));
   assert_int_equal(any, c.n_found == 0);
   assert_int_equal(c.u.n_runs, n);
   return any;
@@ -72,7 +71,7 @@ static double carried(void)
 {
   double of_run[LOGS], sum = 0;
   int e;
-  assert_int_equal(lab_carry_over(&c, of_run, &error), LAB_OK);
+  succeed(lab_carry_over(&c, of_run, &error));
   for (e = 0; e < c.u.n_runs; e++)
     sum += of_run[e];
   return sum;
@@ -84,7 +83,7 @@ TEST(test_lab_carry_over__runs_of_one_rig__err_as_fits_to_the_others_do)
   double sum, of_two;
   open_logs((const int[LOGS]){1, 1, 1}, LOGS);
   sum = carried();
-  assert_int_equal(lab_unknowns_chi2(&c.u, &of_two, &error), LAB_OK);
+  succeed(lab_unknowns_chi2(&c.u, &of_two, &error));
   assert_between(sum / of_two, 0.9, 1.2);
   c.u.n_runs = 2;
   lab_unknowns_view(&c.u, 0);
@@ -110,7 +109,7 @@ TEST(test_lab_rivals_try__three_logs__keeps_what_carries_over)
 {
   int changed;
   open_logs((const int[LOGS]){0, 1, 1}, LOGS);
-  assert_int_equal(lab_rivals_try(&c, &changed, &error), LAB_OK);
+  succeed(lab_rivals_try(&c, &changed, &error));
   assert_false(changed);
   assert_string_equal(pneu_effect_at(c.found[0].effect)->name, "chamber_leak");
 }

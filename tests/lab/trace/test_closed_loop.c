@@ -1,7 +1,6 @@
 /* From a log with a positioner in the loop, of the independent rig, to what the declared model lacks. */
 #include <math.h>
 
-#include "../../check.h"
 #include "../../scratch.h"
 #include "../../second/rig.h"
 
@@ -127,7 +126,6 @@ static const char declared[] =
 static void open_loop(int columns)
 {
   static lab_rig rig;
-  lab_error error = {0, ""};
   char text[sizeof declared];
   memcpy(text, declared, sizeof declared);
   if (fits_nothing)
@@ -143,11 +141,9 @@ static void open_loop(int columns)
 static void close_loop(int columns)
 {
   lab_search_options options;
-  lab_error error = {0, ""};
   open_loop(columns);
   lab_search_options_default(&options);
-  if (lab_search_run(&u, &options, &result, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_search_run(&u, &options, &result, &error));
   lab_logs_close(&logs);
 }
 
@@ -359,15 +355,14 @@ CASE(test_lab_standing_leak__leak_that_the_model_has__is_not_counted_again)
 
 CASE(test_lab_forces_begin__valve_that_leaks__spring_and_friction_as_the_pressure_moves_it)
 {
-  lab_error error = {0, ""};
   hold_within_a_wider_band();
   g.leak_area = 6e-8;
   g.dry_friction = 420;
   g.spring_preload = 0.0106;
   open_loop(WITH_SP | WITH_P);
-  assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&u, &error));
   lab_unknowns_undo_fit(&u);
-  assert_int_equal(lab_forces_begin(&u, &error), LAB_OK);
+  succeed(lab_forces_begin(&u, &error));
   assert_close((double)u.rig.params.spring_rate, 0.96 * 4e5, 0, 0.01);
   assert_close((double)u.rig.params.spring_preload, 0.0106, 0, 0.01);
   assert_close((double)u.rig.params.dry_friction, 420, 0, 0.05);
@@ -410,20 +405,19 @@ CASE(test_lab_search_run__leak_that_begins_at_rest__is_named_with_its_instant)
 CASE(test_lab_departure_find__friction_that_rises__is_between_the_rows)
 {
   static lab_candidate c;
-  lab_error error = {0, ""};
   size_t between[2], row;
   const double *t;
   rises_by = 600;
   leaks_since = 22.3;
   open_loop(WITH_SP | WITH_P);
   c.u = u;
-  assert_int_equal(lab_candidate_hold(&c, &error), LAB_OK);
+  succeed(lab_candidate_hold(&c, &error));
   lab_unknowns_undo_fit(&c.u);
-  assert_int_equal(lab_departure_find(&c, 0, between, &error), LAB_OK);
+  succeed(lab_departure_find(&c, 0, between, &error));
   t = logs.log[0].value[LAB_CHANNEL_TIME];
   assert_between(22.3, t[between[0]] - 2, t[between[1]]);
   assert_true(between[1] < logs.log[0].n);
-  assert_int_equal(lab_departure_row(&c, between[0], &row, &error), LAB_OK);
+  succeed(lab_departure_row(&c, between[0], &row, &error));
   assert_between(row, between[0], between[1]);
   lab_logs_close(&logs);
 }
@@ -431,10 +425,9 @@ CASE(test_lab_departure_find__friction_that_rises__is_between_the_rows)
 /* Whether the stem of the log sticks and slips where the declared model's does not. */
 static int jerks(void)
 {
-  lab_error error = {0, ""};
   size_t window;
   open_loop(WITH_SP | WITH_P);
-  assert_int_equal(lab_unknowns_sticks_and_slips(&u, 1, &window, &error), LAB_OK);
+  succeed(lab_unknowns_sticks_and_slips(&u, 1, &window, &error));
   lab_logs_close(&logs);
   return window > 0;
 }

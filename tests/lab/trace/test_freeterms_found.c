@@ -8,7 +8,6 @@ enum { ROWS = 1201 };
 static const double spacing = 0.05, two_pi = 6.283185307179586; /* [s] */
 static const double sigma_p = 300, sigma_x = 2e-5;
 
-static lab_error error;
 static lab_rig rig;
 static lab_unknowns u;
 static lab_run run;
@@ -38,9 +37,8 @@ static void open_log(void)
     command[i] = t[i] < 1 ? 0 : fmod(t[i] - 1, 29.5) < 14.75 ? 0.25 : -0.25;
     p[i] = x[i] = 0;
   }
-  assert_int_equal(lab_run_open(&rig, &run_log, 0, &run, &error), LAB_OK);
-  if (lab_unknowns_open(&rig, &run, 1, &u, &error))
-    fail_msg("%s", error.text);
+  succeed(lab_run_open(&rig, &run_log, 0, &run, &error));
+  succeed(lab_unknowns_open(&rig, &run, 1, &u, &error));
 }
 
 /* The log of a rig with a free term; without one where there is none. */
@@ -53,7 +51,7 @@ static void measure(const pneu_term *term, uint64_t seed)
     truth.n_terms = 1;
     truth.term[0] = *term;
   }
-  assert_int_equal(lab_run_predict(&run, &(lab_episode){0, &truth}, 1, NULL, 1e-8, y, &error), LAB_OK);
+  succeed(lab_run_predict(&run, &(lab_episode){0, &truth}, 1, NULL, 1e-8, y, &error));
   for (i = 0; i < ROWS; i++) {
     p[i] = y[i] + sigma_p * fixture_normal(&seed);
     x[i] = y[ROWS + i] + sigma_x * fixture_normal(&seed);
@@ -69,9 +67,9 @@ static int slots_of(const pneu_term *term, uint64_t seed)
   declare();
   open_log();
   measure(term, seed);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
-  assert_int_equal(lab_projection_open(&u, &scan, &error), LAB_OK);
-  assert_int_equal(lab_score_free_terms(&scan, slot, &n, &error), LAB_OK);
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error));
+  succeed(lab_projection_open(&u, &scan, &error));
+  succeed(lab_score_free_terms(&scan, slot, &n, &error));
   lab_projection_close(&scan);
   return n;
 }
@@ -162,8 +160,8 @@ TEST(test_lab_score_free_terms__model_full_of_terms__has_no_slots)
   for (i = 0; i < LAB_TERM_MAX; i++)
     u.rig.term[i] = fixture_cycle(PNEU_TERM_FORCE, 1, 0, 0);
   u.rig.n_terms = LAB_TERM_MAX;
-  assert_int_equal(lab_projection_open(&u, &scan, &error), LAB_OK);
-  assert_int_equal(lab_score_free_terms(&scan, slot, &n, &error), LAB_OK);
+  succeed(lab_projection_open(&u, &scan, &error));
+  succeed(lab_score_free_terms(&scan, slot, &n, &error));
   assert_int_equal(n, 0);
   lab_projection_close(&scan);
 }

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../../check.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 
@@ -36,23 +35,21 @@ static void declare(void)
 /* The log of a rig that is another from some time on, and the declared model fitted to it. */
 static void open_log(const second_rig *first, const second_rig *later, double change)
 {
-  lab_error error = {0, ""};
   virtual_record(first, later, change, scratch_path("log.csv"));
   declare();
   virtual_open(&rig, scratch_path("log.csv"), &log_read, &run);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, &run, 1, &u, &error));
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
 }
 
 static void close_loop(const second_rig *first, const second_rig *later, double change)
 {
   lab_search_options options;
-  lab_error error = {0, ""};
   open_log(first, later, change);
   lab_search_options_default(&options);
   options.max_effects = 1;
-  assert_int_equal(lab_search_run(&u, &options, &result, &error), LAB_OK);
-  assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, INFINITY, &all, &error), LAB_OK);
+  succeed(lab_search_run(&u, &options, &result, &error));
+  succeed(lab_deviations_find(&rig, &u, &result.fit, INFINITY, &all, &error));
 }
 
 /* The only onset is that of a parameter: it holds the truth, and the fit of its value as well. */
@@ -142,12 +139,11 @@ static size_t sound; /* rows of the run that leave only noise */
 static void fit_early(const second_rig *first, const second_rig *later, double change)
 {
   static lab_onset_scores begins;
-  lab_error error = {0, ""};
   open_log(first, later, change);
   within.u = u;
   within.n_found = within.quality.fitted = 0;
-  assert_int_equal(lab_candidate_hold(&within, &error), LAB_OK);
-  assert_int_equal(lab_early_fit(&within, 0, 0.01, &onset, &begins, &sound, &error), LAB_OK);
+  succeed(lab_candidate_hold(&within, &error));
+  succeed(lab_early_fit(&within, 0, 0.01, &onset, &begins, &sound, &error));
 }
 
 TEST(test_lab_early_fit__spring_that_breaks__begins_where_the_run_leaves_the_model)
@@ -189,12 +185,11 @@ static int leak_begins(const second_rig *first, const second_rig *later)
   static const double at = 5;
   const int leak = pneu_param_find("leak_area");
   lab_onset begin = {1, at, at, at};
-  lab_error error = {0, ""};
   double chi2;
   open_log(first, later, at);
-  assert_int_equal(lab_unknowns_add_onset(&u, leak, at, 1e-8, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error), LAB_OK);
-  assert_int_equal(lab_onset_extend(&u, lab_unknowns_find_onset(&u, leak), 0.01, &chi2, &begin, &error), LAB_OK);
+  succeed(lab_unknowns_add_onset(&u, leak, at, 1e-8, &error));
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, &chi2, &error));
+  succeed(lab_onset_extend(&u, lab_unknowns_find_onset(&u, leak), 0.01, &chi2, &begin, &error));
   assert_close(u.unknown[lab_unknowns_find_onset(&u, leak)].value, 2e-8, 0, 0.05);
   return begin.known;
 }
@@ -214,13 +209,12 @@ TEST(test_lab_run_predict__supply_falls_before_a_slow_sensor__goes_on)
   const second_rig g = true_rig();
   const double from = 2.5; /* [s] both orifices are shut */
   double *y = malloc(2 * ROWS * sizeof *y), most = 0;
-  lab_error error;
   size_t i;
   open_log(&g, NULL, 0);
   *pneu_param_at(&rig.params, pneu_param_find("pressure_lag.pressure_time")) = (pneu_real)0.05;
-  assert_int_equal(lab_unknowns_add_onset(&u, pneu_param_find("supply_pressure"), from, 3e5, &error), LAB_OK);
+  succeed(lab_unknowns_add_onset(&u, pneu_param_find("supply_pressure"), from, 3e5, &error));
   rig.onset[rig.n_onsets++] = u.rig.onset[0];
-  assert_int_equal(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, NULL, 1e-6, y, &error), LAB_OK);
+  succeed(lab_run_predict(&run, &(lab_episode){0, &rig}, 1, NULL, 1e-6, y, &error));
   for (i = 1; i < run.n; i++)
     if (fabs(log_read.value[LAB_CHANNEL_TIME][i] - from) < 0.2)
       most = fmax(most, fabs(y[i] - y[i - 1]));

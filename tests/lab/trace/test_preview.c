@@ -1,5 +1,4 @@
 /* What the beginning of a log of the independent rig says of the whole. */
-#include "../../check.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 
@@ -18,20 +17,19 @@ static int preview(const second_rig *first, const second_rig *later, double chan
 {
   static const lab_finding none;
   lab_search_options options;
-  lab_error error = {0, ""};
   int done;
   virtual_record(first, later, change, scratch_path("log.csv"));
   virtual_declare(&rig);
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   rig.fit[rig.n_fit++] = pneu_param_find("spring_rate");
   virtual_open(&rig, scratch_path("log.csv"), &log_read, &run);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, &run, 1, &u, &error));
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
   lab_search_options_default(&options);
   found = none;
-  assert_int_equal(lab_search_measure(&u, LAB_STAGE_BEFORE, &found.result, &error), LAB_OK);
+  succeed(lab_search_measure(&u, LAB_STAGE_BEFORE, &found.result, &error));
   before = found;
-  assert_int_equal(lab_preview_search(&u, &options, &found, &done, &error), LAB_OK);
+  succeed(lab_preview_search(&u, &options, &found, &done, &error));
   return done;
 }
 

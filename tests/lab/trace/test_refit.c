@@ -1,7 +1,6 @@
 /* What a candidate costs, whichever way its fit is done. */
 #include <math.h>
 
-#include "../../check.h"
 #include "../../scratch.h"
 #include "../../virtual.h"
 
@@ -25,12 +24,11 @@ static void open_log(const second_rig *g, lab_unknowns *u)
   static const double t_cmd[COMMANDS] = {0.402, 2.003, 3.501}, u_cmd[COMMANDS] = {1, -1, 0.5};
   const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
   const char *path = scratch_path("log.csv");
-  lab_error error = {0, ""};
   virtual_write(g, &course, 5, 0.01, path);
   virtual_declare(&rig);
   rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
   virtual_open(&rig, path, &recorded, &run);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, u, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, &run, 1, u, &error));
 }
 
 /* Instants of commands are known to their rows: they cost nothing, whether they are fitted or vary unseen. With
@@ -42,24 +40,23 @@ TEST(test_lab_candidate_fit__instants_of_commands__cost_nothing_either_way)
   const second_rig g = true_rig();
   const double price = log(2 * ROWS);
   size_t i;
-  lab_error error = {0, ""};
   open_log(&g, &whole.u);
   assert_int_equal(whole.u.n, 1 + COMMANDS);
-  assert_int_equal(lab_candidate_fit(&whole, LAB_ROUNDS_ALL, &error), LAB_OK);
+  succeed(lab_candidate_fit(&whole, LAB_ROUNDS_ALL, &error));
   folded.u = whole.u;
-  assert_int_equal(lab_nuisance_open(&folded.u, &nuisance, &error), LAB_OK);
+  succeed(lab_nuisance_open(&folded.u, &nuisance, &error));
   assert_int_equal(folded.u.n, 1);
-  assert_int_equal(lab_candidate_fit(&folded, LAB_ROUNDS_ALL, &error), LAB_OK);
+  succeed(lab_candidate_fit(&folded, LAB_ROUNDS_ALL, &error));
   assert_close(whole.quality.bic - whole.quality.chi2, price, 1e-6, 0);
   assert_close(folded.quality.bic - folded.quality.chi2, price, 1e-6, 0);
   /* the instants come back with the slopes that they had, which the next fit begins with */
-  assert_int_equal(lab_nuisance_return(&folded.u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_keep_slopes(&folded.u, &error), LAB_OK);
+  succeed(lab_nuisance_return(&folded.u, &error));
+  succeed(lab_unknowns_keep_slopes(&folded.u, &error));
   lab_nuisance_begin_with(&nuisance, &folded.u);
   assert_false(folded.u.has_slope[0]);
   whole.u.slopes = NULL;
-  assert_int_equal(lab_unknowns_keep_slopes(&whole.u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_find_slopes(&whole.u, &error), LAB_OK);
+  succeed(lab_unknowns_keep_slopes(&whole.u, &error));
+  succeed(lab_unknowns_find_slopes(&whole.u, &error));
   assert_int_equal(whole.u.m, folded.u.m);
   for (i = whole.u.m; i < whole.u.m * (size_t)whole.u.n; i++)
     assert_close(folded.u.slopes[i], whole.u.slopes[i], 0.02, 0.5);
@@ -78,13 +75,12 @@ TEST(test_lab_candidate_take_instruments__clock__is_found_far_beyond_its_toleran
   second_rig g = true_rig();
   int i, any;
   for (i = 0; i < 2; i++) {
-    lab_error error = {0, ""};
     g.position_skew = skew[i]; /* [s] by which the position is older than the pressure beside it */
     memset(&c, 0, sizeof c);
     open_log(&g, &c.u);
-    assert_int_equal(lab_unknowns_hold(&c.u, &error), LAB_OK);
-    assert_int_equal(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error), LAB_OK);
-    assert_int_equal(lab_candidate_take_instruments(&c, &any, &error), LAB_OK);
+    succeed(lab_unknowns_hold(&c.u, &error));
+    succeed(lab_candidate_fit(&c, LAB_ROUNDS_ALL, &error));
+    succeed(lab_candidate_take_instruments(&c, &any, &error));
     assert_int_equal(any, i);
     assert_int_equal(c.n_found, i);
   }
@@ -102,24 +98,23 @@ TEST(test_lab_candidate_stage__bent_values__are_left_behind)
   static lab_candidate c, staged;
   static lab_unknowns declared;
   const int leak = pneu_param_find("chamber_leak.leak_area");
-  lab_error error = {0, ""};
   second_rig g = true_rig();
   g.leak_area = 2e-8;
   g.dead_volume *= 1.2;
   g.spring_rate *= 0.95;
   open_log(&g, &declared);
-  assert_int_equal(lab_unknowns_fit(&declared, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  succeed(lab_unknowns_fit(&declared, LAB_ROUNDS_ALL, NULL, &error));
   c.u = declared;
-  assert_int_equal(lab_unknowns_add(&c.u, leak, 2e-9, &error), LAB_OK);
+  succeed(lab_unknowns_add(&c.u, leak, 2e-9, &error));
   c.n_found = 1;
   c.found[0].effect = pneu_effect_find("chamber_leak");
   c.found[0].param = leak;
   c.found[0].term = -1;
-  assert_int_equal(lab_unknowns_hold(&c.u, &error), LAB_OK);
+  succeed(lab_unknowns_hold(&c.u, &error));
   c.u.unknown[lab_unknowns_find(&c.u, pneu_param_find("dry_friction"))].value = 2000;
   c.u.unknown[lab_unknowns_find(&c.u, pneu_param_find("dead_volume"))].value *= 3;
   lab_unknowns_take(&c.u);
-  assert_int_equal(lab_candidate_stage(&c, &declared, &staged, &error), LAB_OK);
+  succeed(lab_candidate_stage(&c, &declared, &staged, &error));
   assert_int_equal(staged.n_found, 1);
   assert_true(staged.quality.chi2 < 1.1 * staged.quality.values);
   assert_close(staged.u.unknown[lab_unknowns_find(&staged.u, leak)].value, 2e-8, 0, 0.05);

@@ -41,16 +41,15 @@ static void declare(void)
 static void open_log(const second_rig *g, const double *u_cmd, int held)
 {
   const second_course course = {.t_cmd = t_cmd, .u_cmd = u_cmd, .n = COMMANDS};
-  lab_error error = {0, ""};
   virtual_write(g, &course, 10, 0.01, scratch_path("log.csv"));
   declare();
   virtual_open(&rig, scratch_path("log.csv"), &log_read, &run);
   assert_int_equal(run.n_instants, COMMANDS);
-  assert_int_equal(lab_unknowns_open(&rig, &run, 1, &u, &error), LAB_OK);
-  assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+  succeed(lab_unknowns_open(&rig, &run, 1, &u, &error));
+  succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
   if (held) {
-    assert_int_equal(lab_unknowns_hold(&u, &error), LAB_OK);
-    assert_int_equal(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error), LAB_OK);
+    succeed(lab_unknowns_hold(&u, &error));
+    succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
   }
 }
 
@@ -58,14 +57,13 @@ static void open_log(const second_rig *g, const double *u_cmd, int held)
 static void run_loop(const second_rig *g, const double *u_cmd, int held)
 {
   lab_search_options options;
-  lab_error error = {0, ""};
   lab_search_options_default(&options);
   options.max_effects = 1;
   options.min_gain = min_gain;
   open_log(g, u_cmd, held);
-  assert_int_equal(lab_search_run(&u, &options, &result, &error), LAB_OK);
+  succeed(lab_search_run(&u, &options, &result, &error));
   if (held)
-    assert_int_equal(lab_deviations_find(&rig, &u, &result.fit, INFINITY, &all, &error), LAB_OK);
+    succeed(lab_deviations_find(&rig, &u, &result.fit, INFINITY, &all, &error));
 }
 
 /* The same of brisk commands, and what it names first. */
@@ -120,20 +118,19 @@ TEST(test_lab_deviations_widen__too_narrow__is_as_wide_as_chi2_says)
   static lab_fit_result fit;
   const second_rig g = true_rig();
   const double narrower[] = {1, 10};
-  lab_error error;
   int i, j, k;
   open_log(&g, brisk, 1);
   j = lab_unknowns_find(&u, PNEU_PARAM_spring_rate);
   for (i = 0; i < 2; i++) {
     double wide;
-    assert_int_equal(lab_unknowns_intervals(&u, &fit, &error), LAB_OK);
+    succeed(lab_unknowns_intervals(&u, &fit, &error));
     wide = fit.high[j] - fit.low[j];
     u.declared.spring_rate = (pneu_real)(u.unknown[j].value - 2 * wide);
     fit.high[j] = u.unknown[j].value + wide / 2 / narrower[i];
     fit.low[j] = u.unknown[j].value - wide / 2 / narrower[i];
     for (k = 0; k < u.n; k++)
       fit.covariance[k][j] /= narrower[i] * narrower[i];
-    assert_int_equal(lab_deviations_widen(&u, &fit, &error), LAB_OK);
+    succeed(lab_deviations_widen(&u, &fit, &error));
     check_note("%g of %g", fit.high[j] - fit.low[j], wide);
     assert_close(fit.high[j] - fit.low[j], wide, 0, 0.1);
   }
