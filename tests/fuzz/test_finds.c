@@ -3,8 +3,6 @@
 #include "../check.h"
 
 #include <dirent.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "targets.h"
 

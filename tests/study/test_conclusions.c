@@ -1,7 +1,5 @@
 #include <ctype.h>
 #include <omp.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../../apps/study/conclusions.h"
 #include "../../apps/study/paper.h"

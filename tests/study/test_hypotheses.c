@@ -1,8 +1,6 @@
 /* apps/study/hypotheses: when a verdict flips; what each cause does without the other */
 #include "../words.h"
 
-#include <math.h>
-
 #include "../../apps/study/hypotheses.h"
 
 static void read_study(study *s)

@@ -1,8 +1,3 @@
-#include "../check.h"
-
-#include <stdio.h>
-#include <string.h>
-
 #include "../../apps/study/paper.h"
 #include "../words.h"
 

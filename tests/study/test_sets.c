@@ -2,7 +2,6 @@
 #include "../scratch.h"
 
 #include "../../apps/lab/base/config.h"
-#include <math.h>
 
 #include "../../apps/study/sets.h"
 #include "../../apps/study/table.h"

@@ -1,6 +1,3 @@
-#include <stdio.h>
-#include <string.h>
-
 #include "../../apps/study/table.h"
 #include "../words.h"
 

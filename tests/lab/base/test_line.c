@@ -1,8 +1,6 @@
 /* A weighted straight line: closed forms, and how often its intervals hold. */
 #include "../../fixture.h"
 
-#include <math.h>
-
 #include "../../../apps/lab/base/line.h"
 
 static const double normal = 1.959963984540054; /* of 95 % */

@@ -1,8 +1,4 @@
 /* apps/lab/base/number */
-
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "../../../apps/lab/base/number.h"
 #include "../../fixture.h"
 

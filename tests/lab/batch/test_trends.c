@@ -1,8 +1,6 @@
 /* apps/lab/batch/history, trends: from the reports of dated lines to trends.csv and the page */
 #include "../../scratch.h"
 
-#include <math.h>
-
 #include "../../../apps/lab/base/outfile.h"
 #include "../../../apps/lab/batch/trends.h"
 

@@ -1,6 +1,4 @@
 /* From two logs of the independent rig to what has changed between them. */
-#include <math.h>
-
 #include "../../scratch.h"
 #include "../../blind/logs.h"
 #include "../../virtual.h"

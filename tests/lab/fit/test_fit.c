@@ -1,8 +1,6 @@
 /* Least squares within bounds: closed forms, a curved valley, models that fail. */
 #include "../../words.h"
 
-#include <stdlib.h>
-
 #include "../../../apps/lab/fit/fit.h"
 #include "../../../apps/lab/fit/normal.h"
 

@@ -2,9 +2,6 @@
 #include "../../fixture.h"
 #include "../../words.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../../apps/lab/base/quantile.h"
 #include "../../../apps/lab/fit/spread.h"
 #include "../../../apps/lab/run/response.h"

@@ -1,8 +1,6 @@
 /* apps/lab/metrics/asymmetry: how strokes differ */
 #include "../../words.h"
 
-#include <math.h>
-
 #include "../../../apps/lab/metrics/asymmetry.h"
 
 enum { SAMPLES = 4001 };

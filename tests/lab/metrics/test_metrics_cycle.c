@@ -1,6 +1,5 @@
 /* Air and energy of a cycle, against the paper's formulae; reasons where there is none. */
 #include "../../record.h"
-#include "../../words.h"
 
 static double record_flow[RECORD_ROWS];                     /* [kg/s] from the supply */
 static const double F = 480, A = 0.04, k = 4e5, x_0 = 0.01; /* R1-400 [B, Table A1] */

@@ -1,6 +1,5 @@
 /* Figures of merit of steps and strokes, against closed forms. */
 #include "../../record.h"
-#include "../../words.h"
 
 static const double T = 0.8, Td = 0.25; /* [s] of a first-order lag with dead time */
 static const double pi = 3.141592653589793;

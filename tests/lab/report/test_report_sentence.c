@@ -1,7 +1,6 @@
 /* The answer in words. */
 #include <ctype.h>
 
-#include "../../check.h"
 #include "../../words.h"
 
 #include "../../../apps/lab/report/report.h"

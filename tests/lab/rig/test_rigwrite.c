@@ -3,8 +3,6 @@
  * allowed. */
 #include "../../rigfile.h"
 
-#include <stdint.h>
-
 #include "../../../apps/lab/base/escape.h"
 #include "../../../apps/lab/base/number.h"
 #include "../../../apps/lab/rig/rigkeys.h"

@@ -1,6 +1,4 @@
 /* apps/lab/trace/candidate: values that are held, let go, and held again */
-#include <math.h>
-
 #include "held.h"
 
 static held_log h;

@@ -1,6 +1,4 @@
 /* From a log with a positioner in the loop, of the independent rig, to what the declared model lacks. */
-#include <math.h>
-
 #include "../../scratch.h"
 #include "../../second/rig.h"
 

@@ -1,6 +1,4 @@
 /* What the search decides by: when a model leaves only noise, and which rule holds at which facts. */
-#include <math.h>
-
 #include "../../fixture.h"
 
 #include "../../../apps/lab/trace/decide.h"

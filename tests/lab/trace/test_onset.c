@@ -1,7 +1,4 @@
 /* When what is found begins within a log of the independent rig. */
-#include <math.h>
-#include <stdlib.h>
-
 #include "../../scratch.h"
 #include "../../virtual.h"
 

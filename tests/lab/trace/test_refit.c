@@ -1,6 +1,4 @@
 /* What a candidate costs, whichever way its fit is done. */
-#include <math.h>
-
 #include "../../scratch.h"
 #include "../../virtual.h"
 
