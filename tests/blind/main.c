@@ -93,61 +93,47 @@ static void remove_folder(const char *path)
 }
 
 /* Write its logs, ask, score. */
-static int one_trial(int number, blind_record *record, lab_error *error)
+static int one_clean(int number, const char *folder, blind_record *record, lab_error *error)
 {
-  blind_trial *t = malloc(sizeof *t);
-  blind_answer *answer = malloc(sizeof *answer);
+  blind_trial t;
+  blind_answer answer;
   double limit[BLIND_AT_ONCE], statistic;
-  char folder[PATHS];
-  int i, status = t && answer ? LAB_OK : lab_fail_memory(error, "a trial");
-  snprintf(folder, sizeof folder, "%s/trial-%d", keep ? keep : work, number);
-  if (status == LAB_OK) {
-    blind_draw((uint64_t)seed, number, t);
-    t->tells_noise = series->tells_noise;
-    status = blind_write_logs(t, folder, error);
-  }
-  for (i = 0; status == LAB_OK && i < t->n_missing; i++)
-    status = blind_limit(t, i, &limit[i], &statistic, error);
-  if (status == LAB_OK)
-    status = blind_ask(closeloop, folder, timeout, answer, error);
-  if (status == LAB_OK)
-    blind_score(t, limit, answer, record);
-  if (!keep)
-    remove_folder(folder);
-  free(t);
-  free(answer);
-  return status == LAB_OK ? LAB_OK : lab_fail_in(error, "trial %d", number);
+  int i;
+  blind_draw((uint64_t)seed, number, &t);
+  t.tells_noise = series->tells_noise;
+  if (blind_write_logs(&t, folder, error))
+    return error->status;
+  for (i = 0; i < t.n_missing; i++)
+    if (blind_limit(&t, i, &limit[i], &statistic, error))
+      return error->status;
+  if (blind_ask(closeloop, folder, timeout, &answer, error))
+    return error->status;
+  blind_score(&t, limit, &answer, record);
+  return LAB_OK;
 }
 
-/* ---- One trial as recorded ---- */
-
-static int one_recorded(int number, blind_record *record, lab_error *error)
+static int one_recorded(int number, const char *folder, blind_record *record, lab_error *error)
 {
-  blind_recorded *r = malloc(sizeof *r);
-  blind_answer *answer = malloc(sizeof *answer);
+  blind_recorded r;
+  blind_answer answer;
   blind_visible visible;
-  size_t rows = 0;
-  char folder[PATHS];
-  int status = r && answer ? LAB_OK : lab_fail_memory(error, "a trial");
-  snprintf(folder, sizeof folder, "%s/trial-%d", keep ? keep : work, number);
-  if (status == LAB_OK) {
-    blind_draw_recorded((uint64_t)seed, number, left_out, r);
-    status = blind_prepare(r, folder, &rows, &visible, error);
-  }
-  if (status == LAB_OK)
-    status = blind_ask(closeloop, folder, timeout, answer, error);
-  if (status == LAB_OK)
-    blind_score_recorded(r, &visible, answer, rows, record);
-  if (!keep)
-    remove_folder(folder);
-  free(r);
-  free(answer);
-  return status == LAB_OK ? LAB_OK : lab_fail_in(error, "trial %d", number);
+  size_t rows;
+  blind_draw_recorded((uint64_t)seed, number, left_out, &r);
+  if (blind_prepare(&r, folder, &rows, &visible, error) || blind_ask(closeloop, folder, timeout, &answer, error))
+    return error->status;
+  blind_score_recorded(&r, &visible, &answer, rows, record);
+  return LAB_OK;
 }
 
 static int one(int number, blind_record *record, lab_error *error)
 {
-  return series->recorded ? one_recorded(number, record, error) : one_trial(number, record, error);
+  char folder[PATHS];
+  int status;
+  snprintf(folder, sizeof folder, "%s/trial-%d", keep ? keep : work, number);
+  status = (series->recorded ? one_recorded : one_clean)(number, folder, record, error);
+  if (!keep)
+    remove_folder(folder);
+  return status == LAB_OK ? LAB_OK : lab_fail_in(error, "trial %d", number);
 }
 
 static int show_one(lab_error *error)
