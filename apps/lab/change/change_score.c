@@ -131,11 +131,10 @@ static int score_shapes(tried *t, lab_trial *trial, int throughout, int within, 
   return tests;
 }
 
-/* Returns: as score_shapes */
-static int score_new(const lab_projection *p, int first, int throughout, lab_score *score, int *parts, lab_error *all)
+/* In:  as score_shapes  Returns: the same */
+static int score_new(const lab_projection *p, int first, int throughout, int within, lab_score *score, int *parts,
+                     lab_error *all)
 {
-  const double noise = lab_constant(LAB_NOISE_DEVIATIONS) * sqrt(2 * (double)p->u->n_values);
-  const int within = first + 1 == p->u->n_runs && p->u->window == 0 && p->excess > noise;
   lab_error error = {LAB_OK, ""};
   tried *t = calloc(1, sizeof *t);
   int tests = 0;
@@ -156,13 +155,37 @@ static int score_new(const lab_projection *p, int first, int throughout, lab_sco
 }
 
 /* Half of the chance of a false one is for what acts throughout, half for its parts. */
+static void judge(lab_score *score, int parts)
+{
+  score->p_value = 2 * lab_chi2_tail(score->statistic, 1) * (score->onset > 0 ? parts : 1);
+}
+
 static int score_change(const lab_projection *p, int first, lab_score *score, lab_error *all)
 {
   const int j = lab_sides_find(p->u, score->param);
-  int parts = 0, tests = j >= 0 ? score_release(p, j, score, all) : 0;
-  tests += score_new(p, first, j < 0, score, &parts, all);
-  score->p_value = 2 * lab_chi2_tail(score->statistic, 1) * (score->onset > 0 ? parts : 1);
+  int parts = 0;
+  const int tests = j >= 0 ? score_release(p, j, score, all) : score_new(p, first, 1, 0, score, &parts, all);
+  judge(score, parts);
   return tests;
+}
+
+/* What acts from some rows on shows in all of them as well, but where it may differ from day to day: only such changes
+ * and the first of the others are asked for their parts. */
+static void score_parts(const lab_projection *p, int first, lab_scores *scores, lab_error *all)
+{
+  enum { ASKED = 2 * LAB_CHANGE_LEADERS };
+  const double noise = lab_constant(LAB_NOISE_DEVIATIONS) * sqrt(2 * (double)p->u->n_values);
+  int i;
+  if (first + 1 < p->u->n_runs || p->u->window > 0 || !(p->excess > noise))
+    return;
+#pragma omp parallel for schedule(dynamic)
+  for (i = 0; i < scores->n; i++) {
+    int parts = 0;
+    if (i >= ASKED && lab_sides_find(p->u, scores->of[i].param) < 0)
+      continue;
+    score_new(p, first, 0, 1, &scores->of[i], &parts, all);
+    judge(&scores->of[i], parts);
+  }
 }
 
 /* ---- What is tested ---- */
@@ -237,6 +260,8 @@ int lab_change_scores(lab_sides *c, lab_scores *scores, lab_error *error)
     for (i = 0; i < scores->n; i++)
       tests += score_change(&p, c->first, &scores->of[i], error);
     scores->tests = tests;
+    qsort(scores->of, (size_t)scores->n, sizeof *scores->of, lab_score_by_statistic);
+    score_parts(&p, c->first, scores, error);
     qsort(scores->of, (size_t)scores->n, sizeof *scores->of, lab_score_by_statistic);
     status = error->status;
   }

@@ -13,13 +13,16 @@ const lab_repeat lab_repeats[] = {
     {"position_bias.position_bias", 0.005, "stroke", 0, 1},
     {"pressure_gain.pressure_gain", 0, NULL, 0.002, 1},
     {"position_gain.position_gain", 0, NULL, 0.002, 1},
+    {"channel_skew.channel_skew", 0, NULL, 0.002, 1},
     {"orifice_area", 0.01, NULL, 0, 1},
     {"fill_area", 0, NULL, 0, 1},
-    {"dead_volume", 0.01, NULL, 0, 1},
+    {"dead_volume", 0.05, NULL, 0, 1},
     {"dry_friction", 0.05, NULL, 0, 1},
     {"viscous_friction", 0.1, NULL, 0, 1},
     {"spring_rate", 0.005, NULL, 0, 1},
     {"spring_preload", 0.005, NULL, 0, 1},
+    {"positioner.gain", 0, NULL, 0, 1},
+    {"positioner.dead_band", 0, NULL, 0, 1},
 };
 const int lab_repeat_count = sizeof lab_repeats / sizeof *lab_repeats;
 

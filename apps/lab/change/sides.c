@@ -156,9 +156,47 @@ int lab_sides_approach(lab_unknowns *u, double *chi2, lab_error *error)
     for (j = 0; j < u->n; j++)
       if (u->unknown[j].kind == LAB_UNKNOWN_CHANGE)
         u->unknown[j].spread = share[i] * spread[j];
-    status = lab_sides_settle(u, chi2, error);
+    status = i < 2 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, chi2, error) : lab_sides_settle(u, chi2, error);
   }
   return status;
+}
+
+/* Drop the instants of commands. */
+static void drop_instants(lab_unknowns *u)
+{
+  int j, k;
+  for (j = k = 0; j < u->n; j++)
+    if (u->unknown[j].kind != LAB_UNKNOWN_INSTANT)
+      u->unknown[k++] = u->unknown[j];
+  u->n = k;
+}
+
+/* Follow the baseline to first order from here on: it tells its own values, and what is fitted here are the new logs.
+ */
+static int follow_to_first_order(lab_sides *c, lab_error *error)
+{
+  if (c->base.window > 0)
+    return LAB_OK;
+  if (lab_linear_open(&c->base, &c->old, error))
+    return error->status;
+  c->u.linear = &c->old;
+  drop_instants(&c->u);
+  return LAB_OK;
+}
+
+void lab_sides_whole(const lab_sides *c, const lab_unknowns *u, lab_unknowns *whole)
+{
+  int j, k = 0;
+  *whole = *u;
+  if (!u->linear)
+    return;
+  whole->linear = NULL;
+  whole->n = c->base.n;
+  for (j = 0; j < c->base.n; j++)
+    whole->unknown[j] = c->base.unknown[j].kind == LAB_UNKNOWN_INSTANT ? c->base.unknown[j] : u->unknown[k++];
+  for (; k < u->n && whole->n < LAB_FIT_MAX; k++)
+    whole->unknown[whole->n++] = u->unknown[k];
+  lab_unknowns_count(whole);
 }
 
 int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, int n_now, lab_sides *c, lab_error *error)
@@ -171,8 +209,10 @@ int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, in
   for (e = 0; e < then->n_runs + n_now; e++)
     c->run[e].drift = NULL; /* from one day to the next a sensor is off by what add_repeats allows */
   memcpy(c->white, c->run, sizeof c->white);
-  c->u = *then;
+  c->u = c->base = *then;
   c->first = then->n_runs;
+  if (follow_to_first_order(c, error))
+    return error->status;
   if (lab_unknowns_join(&c->u, c->run, then->n_runs + n_now, error) || add_repeats(c, error))
     return error->status;
   if (take_rest_as_noise(then, decided, c, error))
@@ -220,6 +260,20 @@ int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *
     left->chi2 = lab_dot(r, r, u->m);
   }
   free(r);
+  return status;
+}
+
+int lab_sides_rest_of_all(const lab_sides *c, const lab_unknowns *u, const lab_run *run, lab_rest *left,
+                          lab_error *error)
+{
+  lab_unknowns *all = malloc(sizeof *all);
+  int status = all ? LAB_OK : lab_fail_memory(error, "a model of both sides");
+  if (status == LAB_OK) {
+    lab_sides_whole(c, u, all);
+    all->run = run;
+    status = lab_sides_rest(all, c->first, left, error);
+  }
+  free(all);
   return status;
 }
 

@@ -3,12 +3,15 @@
 #ifndef LAB_SIDES_H
 #define LAB_SIDES_H
 
+#include "../fit/linear.h"
 #include "change.h"
 
 /* Both sides in one fit. */
 typedef struct lab_sides {
   lab_unknowns u;
   lab_unknowns then;          /* the same as the baseline alone has it */
+  lab_unknowns base;          /* the model of the baseline, with the instants of its commands, which stay in `u` */
+  lab_linear old;             /* its runs, simulated once */
   lab_run run[LAB_FIT_MAX];   /* of both sides: views, whose noise may differ from that of the logs */
   lab_run white[LAB_FIT_MAX]; /* the same with noise that has no memory */
   int first;                  /* run of the new logs */
@@ -21,7 +24,9 @@ typedef struct lab_sides {
   int n_followed; /* what that fitted */
 } lab_sides;
 
-/* Put both together, from the model of the baseline, not yet fitted.  In: as lab_changes_find  Out: c */
+/* Put both together, from the model of the baseline, not yet fitted.
+ * In:  as lab_changes_find
+ * Out: c  zeros before; c->old to be closed, also after an error */
 int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, int n_now, lab_sides *c,
                    lab_error *error);
 
@@ -39,6 +44,9 @@ int lab_sides_settle(lab_unknowns *u, double *chi2, lab_error *error);
  * astray, where another valley may hold it. */
 int lab_sides_approach(lab_unknowns *u, double *chi2, lab_error *error);
 
+/* Both sides to be simulated, with the instants of all commands.  In: u  as c->u  Out: whole */
+void lab_sides_whole(const lab_sides *c, const lab_unknowns *u, lab_unknowns *whole);
+
 /* What is left of either side, [1] over what counts as noise. */
 typedef struct lab_rest {
   double then, now;
@@ -49,6 +57,10 @@ typedef struct lab_rest {
 /* In:      first  run of the new logs
  * Returns: as lab_unknowns_residuals */
 int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *error);
+
+/* The same with both sides simulated.  In: u  as c->u  run  c->run or c->white */
+int lab_sides_rest_of_all(const lab_sides *c, const lab_unknowns *u, const lab_run *run, lab_rest *left,
+                          lab_error *error);
 
 /* Whether the new logs leave more than noise. */
 int lab_rest_is_more_than_noise(const lab_rest *left);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../base/array.h"
 #include "../base/format.h"
@@ -17,8 +18,9 @@ static const double steady = 0.3;   /* of the amplitude: both halves of a run ha
 static const double visible = 0.12; /* of the median second difference, a fifth of white noise: less does no harm */
 static const double grid = 3e-3;    /* of its frequency, by which the mains and a logger's clock may be off */
 static const double slowest = 20;   /* rows a second: of fewer, most frequencies are what the mains would look like */
-static const double mains[] = {50, 60}; /* Hz */
-static const double lowest = 1.0 / 16;  /* periods a row: what is slower may be the rig's */
+static const double mains[] = {50, 60};                       /* Hz */
+static const double lowest = 1.0 / 16;                        /* periods a row: what is slower may be the rig's */
+static const double slowest_left = 8, lowest_left = 1.0 / 50; /* of what a model leaves, in which strokes are small */
 
 /* Rows of a run: times, and second differences of a channel, in which what is slow is small; NaN beside a gap. */
 typedef struct rows {
@@ -152,12 +154,6 @@ static double sampled(double f, double rate)
   return fabs(f - rate * floor(f / rate + 0.5));
 }
 
-/* Whether it leaves it fast enough to be told from what the rig does. */
-static int is_seen(double f, double rate)
-{
-  return sampled(f, rate) > lowest * rate;
-}
-
 int lab_may_be_hum(double f, double rate)
 {
   int i, any = 0;
@@ -189,23 +185,29 @@ static wave remove_line(const double *t, double *y, const double *u, size_t n, d
   return v;
 }
 
-static void remove_from(lab_log *log, size_t run, int channel, double rate, double *room)
+/* Every line off n rows of a channel from `first` on.
+ * In:      slow  periods a row that tell a line from what the rig does
+ * In/out:  y     those rows, or what is left of them
+ * Returns: how many lines */
+static int remove_from(lab_log *log, size_t first, size_t n, int channel, double slow, double *y, double *room,
+                       double rate)
 {
-  const size_t first = log->run[run], n = log->run[run + 1] - first;
   const int command = lab_log_command(log);
   const double *u = command < 0 ? NULL : log->value[command] + first;
-  int i, k;
+  int i, k, lines = 0;
   for (i = 0; i < 2; i++)
     for (k = 1; k <= HARMONICS; k++) {
       const double f = k * mains[i];
       wave v = {0, 0, 0, 0};
-      if (is_seen(f, rate))
-        v = remove_line(log->value[LAB_CHANNEL_TIME] + first, log->value[channel] + first, u, n, f, room);
+      if (sampled(f, rate) > slow * rate)
+        v = remove_line(log->value[LAB_CHANNEL_TIME] + first, y, u, n, f, room);
+      lines += v.a != 0 || v.b != 0;
       if (!(hypot(v.a, v.b) > log->hum[channel].amplitude))
         continue;
       log->hum[channel].amplitude = hypot(v.a, v.b);
       log->hum[channel].frequency = v.f;
     }
+  return lines;
 }
 
 static void say(const lab_log *log, int channel, lab_limitations *limitations)
@@ -239,11 +241,32 @@ int lab_log_remove_hum(lab_log *log, lab_limitations *limitations, lab_error *er
       const size_t first = log->run[run], n = log->run[run + 1] - first;
       const double rate = n >= ROWS_FEWEST ? rate_of(log->value[LAB_CHANNEL_TIME] + first, n, room) : 0;
       if (rate > slowest)
-        remove_from(log, run, c, rate, room);
+        remove_from(log, first, n, c, lowest, log->value[c] + first, room, rate);
     }
     if (log->hum[c].amplitude > 0)
       say(log, c, limitations);
   }
   free(room);
+  return LAB_OK;
+}
+
+int lab_log_remove_hum_left(lab_log *log, size_t first, size_t n, int channel, const double *left, int *lines,
+                            lab_limitations *limitations, lab_error *error)
+{
+  double *y = malloc((3 * n + 1) * sizeof *y), *value = log->value[channel] + first;
+  double rate;
+  size_t i;
+  *lines = 0;
+  if (!y)
+    return lab_fail_memory(error, log->path);
+  rate = n >= ROWS_FEWEST ? rate_of(log->value[LAB_CHANNEL_TIME] + first, n, y) : 0;
+  memcpy(y, left, n * sizeof *y);
+  if (rate > slowest_left)
+    *lines = remove_from(log, first, n, channel, lowest_left, y, y + n, rate);
+  for (i = 0; i < n; i++)
+    value[i] += y[i] - left[i];
+  if (*lines > 0)
+    say(log, channel, limitations);
+  free(y);
   return LAB_OK;
 }

@@ -23,6 +23,14 @@ void lab_log_even_stamps(lab_log *log, lab_limitations *limitations);
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_log_remove_hum(lab_log *log, lab_limitations *limitations, lab_error *error);
 
+/* The same where a model leaves it, which shows slower lines, and in fewer rows a second.
+ * In:      left   [SI] what a model leaves of n rows from `first` on, 0 at a gap
+ * In/out:  log    those rows of the channel
+ * Out:     lines  how many were taken off
+ * Returns: LAB_OK, LAB_WORLD */
+int lab_log_remove_hum_left(lab_log *log, size_t first, size_t n, int channel, const double *left, int *lines,
+                            lab_limitations *limitations, lab_error *error);
+
 /* Whether a line is where sampling puts a hum of the mains, which lab_log_remove_hum leaves where it is slow: within
  * 0.3 % of 50 or 60 Hz. Where that is at 0, all slow lines would be, and none counts.
  * In:      f     [Hz] of the line

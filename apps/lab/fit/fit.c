@@ -77,16 +77,32 @@ int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *
   return lab_fit_other_slopes(p, theta, r, J, done, error);
 }
 
+/* Where a column begins to differ from 0, or a little before: what only the last of many logs have begins there. */
+static size_t begins_at(const double *column, size_t m)
+{
+  enum { BLOCK = 64 };
+  size_t i = 0;
+  while (i < m && column[i] == 0)
+    i++;
+  return i - i % BLOCK;
+}
+
 /* What follows from the slopes. */
 static void multiply(descent *d)
 {
   const lab_fit_problem *p = d->problem;
+  size_t first[N];
   int j, k;
+  for (j = 0; j < p->n; j++)
+    first[j] = begins_at(d->J + (size_t)j * p->m, p->m);
 #pragma omp parallel for schedule(dynamic) private(k)
   for (j = 0; j < p->n; j++) {
-    d->g[j] = lab_dot(d->J + (size_t)j * p->m, d->r, p->m);
-    for (k = 0; k <= j; k++)
-      d->A[j][k] = lab_dot(d->J + (size_t)j * p->m, d->J + (size_t)k * p->m, p->m);
+    const double *column = d->J + (size_t)j * p->m;
+    d->g[j] = lab_dot(column + first[j], d->r + first[j], p->m - first[j]);
+    for (k = 0; k <= j; k++) {
+      const size_t from = first[j] > first[k] ? first[j] : first[k];
+      d->A[j][k] = lab_dot(column + from, d->J + (size_t)k * p->m + from, p->m - from);
+    }
   }
   for (j = 0; j < p->n; j++)
     for (k = 0; k < j; k++)

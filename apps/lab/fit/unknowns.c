@@ -135,6 +135,21 @@ static void keep_damped(const lab_unknowns *u, lab_unknown *x)
     x->lower = fmax(x->lower, least * (double)u->declared.damping);
 }
 
+int lab_unknowns_leave_damping(lab_unknowns *u)
+{
+  static const double hardly = 0.3; /* of what is declared, by judgement */
+  int j = lab_unknowns_find(u, PNEU_PARAM_damping), e, follows = 0;
+  for (e = 0; e < u->n_runs; e++)
+    follows |= lab_log_command(u->run[e].log) == LAB_CHANNEL_SP;
+  if (j < 0 || !follows || u->unknown[j].value > hardly * (double)u->declared.damping)
+    return 0;
+  for (u->n--; j < u->n; j++)
+    u->unknown[j] = u->unknown[j + 1];
+  u->rig.params.damping = u->declared.damping;
+  lab_unknowns_count(u);
+  return 1;
+}
+
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
 {
   const int held = lab_unknowns_find(u, param);
@@ -557,7 +572,10 @@ static int twin_of(int param)
 static double to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
 {
   const int area = param == PNEU_PARAM_fill_area || param == PNEU_PARAM_vent_area, twin = twin_of(param);
-  const double tolerance = param == LAB_PARAM_ORIFICE_AREA ? 0 : lab_tolerance(declared, param);
+  const int left = param == PNEU_PARAM_damping && lab_rig_fits(declared, param);
+  const double tolerance = param == LAB_PARAM_ORIFICE_AREA ? 0
+                           : left                          ? lab_param_value(declared, param)
+                                                           : lab_tolerance(declared, param);
   if (lab_unknowns_find(u, param) >= 0 || (area && lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA) >= 0) ||
       (twin >= 0 && (lab_unknowns_find(u, twin) >= 0 || lab_tolerance(declared, twin) > tolerance)))
     return 0;

@@ -55,6 +55,7 @@ typedef struct lab_unknowns {
   double *slopes;    /* where a fit leaves its slopes for the next, m of each unknown; NULL: nowhere */
   char has_slope[LAB_FIT_MAX];         /* whether that of an unknown is there already, nearly */
   const struct lab_nuisance *nuisance; /* declared values that may vary unseen; NULL: none (nuisance.h) */
+  const struct lab_linear *linear;     /* runs that are followed to first order; NULL: none (linear.h) */
 } lab_unknowns;
 
 /* No unknowns: the model as it is, every change of command at the row that shows it, and nothing fitted but where each
@@ -131,6 +132,10 @@ int lab_unknown_is_held(const lab_unknown *x);
  * Damping stays above 2 % of what is declared.
  * Returns: LAB_OK; LAB_DATA if there is no room. */
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error);
+
+/* A stem that is hardly damped hunts behind a positioner, and a fit that has gone there does not come back. Leave such
+ * a damping as it is declared, known to its own size, to vary with what is held.  Returns: whether it was one */
+int lab_unknowns_leave_damping(lab_unknowns *u);
 
 /* Take up a free term, whose values in `term` are the start; over a cycle, with its period.
  * In:      scale  a value of it that matters, in its unit

@@ -6,6 +6,7 @@
 #include "../base/array.h"
 #include "drift.h"
 #include "drive.h"
+#include "linear.h"
 #include "windowed.h"
 #include "nuisance.h"
 
@@ -54,6 +55,10 @@ void lab_unknowns_weigh(const lab_unknowns *u, int e, double *r)
 static int errors_of(const lab_unknowns *u, const lab_rig *model, const double *theta, int e, double *r,
                      lab_error *error)
 {
+  if (lab_linear_has(u, e)) {
+    lab_linear_errors(u, e, theta, r);
+    return LAB_OK;
+  }
   if (predict(u, model, theta, e, r, error))
     return error->status;
   weigh(&u->run[e], r);

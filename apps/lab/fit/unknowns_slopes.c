@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "drive.h"
+#include "linear.h"
 #include "nuisance.h"
 
 static const double coarser = 10;   /* times the tolerance of the stepper: its errors are none of what is followed */
@@ -128,13 +129,28 @@ static int vary_run(const lab_unknowns *u, const asked *base, asked *ask, int n,
   return status;
 }
 
+/* The same of one that is followed to first order anyway: other values are all that differs. */
+static void vary_linear(const lab_unknowns *u, const asked *base, asked *ask, int n, int e, size_t from)
+{
+  int i;
+  for (i = 0; i < n; i++) {
+    if (ask[i].is_lost || (ask[i].of && !lab_unknown_acts(ask[i].of, e)))
+      continue;
+    lab_linear_change(u, e, base->theta, ask[i].theta, ask[i].change + from);
+    lab_unknowns_weigh(u, e, ask[i].change + from);
+  }
+}
+
 /* Those of all experiments. */
 static int vary(const lab_unknowns *u, const asked *base, asked *ask, int n, lab_error *error)
 {
   size_t from = 0;
   int e, status = LAB_OK;
   for (e = 0; e < u->n_runs && status == LAB_OK; from += lab_unknowns_residuals_in(u, e), e++)
-    status = vary_run(u, base, ask, n, e, from, error);
+    if (lab_linear_has(u, e))
+      vary_linear(u, base, ask, n, e, from);
+    else
+      status = vary_run(u, base, ask, n, e, from, error);
   return status;
 }
 

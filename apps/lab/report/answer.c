@@ -10,6 +10,7 @@
 #include "../base/interrupt.h"
 #include "../base/outfile.h"
 #include "../base/text.h"
+#include "../check/mend.h"
 #include "../discriminate/forecast.h"
 #include "../fit/drift.h"
 #include "../fit/weights.h"
@@ -353,12 +354,32 @@ static double after(double seconds)
   return seconds > 0 ? lab_cpu_time() + seconds : 0;
 }
 
+/* Take off the logs what of the mains a model leaves.  Out: any  whether there was some */
+static int remove_hum(lab_logs *logs, const lab_unknowns *u, int *any, lab_error *error)
+{
+  double *left = malloc((u->n_rows + 1) * sizeof *left), *r = left;
+  int e, c, lines, status = left ? lab_unknowns_errors(u, left, error) : lab_fail_memory(error, "hum");
+  size_t i;
+  for (e = 0; e < u->n_runs && status == LAB_OK; e++) {
+    const lab_run *x = &u->run[e];
+    for (c = 0; c < x->n_channels && status == LAB_OK; c++, r += x->n) {
+      for (i = 0; i < x->n; i++)
+        r[i] *= x->sigma[c];
+      status = lab_log_remove_hum_left((lab_log *)x->log, x->first, x->n, x->channel[c], r, &lines, &logs->limitations,
+                                       error);
+      *any |= lines > 0;
+    }
+  }
+  free(left);
+  return status;
+}
+
 /* Fit the declared model; once more where the logs show another noise or clock than is declared.
  * In:      most  [s] of CPU for each of these fits; 0: any */
 static int fit_declared(lab_logs *logs, double most, lab_unknowns *declared, lab_error *error)
 {
   double chi2;
-  int e, any;
+  int e, any, hums = 0;
   for (e = 0; e < logs->n; e++)
     if (lab_drift_open(&logs->run[e], error))
       return error->status;
@@ -366,11 +387,14 @@ static int fit_declared(lab_logs *logs, double most, lab_unknowns *declared, lab
   if (lab_unknowns_fit(declared, LAB_ROUNDS_ALL, &chi2, error))
     return error->status;
   declared->until = after(most);
-  if (fit_on_rows(logs, declared, chi2, error) || lab_weigh_runs(declared, logs->run, &any, error))
+  if (lab_unknowns_leave_damping(declared) && lab_unknowns_fit(declared, LAB_ROUNDS_ALL, &chi2, error))
+    return error->status;
+  if (fit_on_rows(logs, declared, chi2, error) || remove_hum(logs, declared, &hums, error) ||
+      lab_weigh_runs(declared, logs->run, &any, error))
     return error->status;
   declared->until = after(most);
   lab_weights_say(logs->run, logs->n, &logs->limitations);
-  return any ? lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
+  return any || hums ? lab_unknowns_fit(declared, LAB_ROUNDS_ALL, NULL, error) : LAB_OK;
 }
 
 /* How much CPU time there is, from when on [s]; 0: no end. */
@@ -423,13 +447,12 @@ static int may_mistake_noise(const lab_completion *c)
  */
 static int search_with_noise(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
-  int any = 0, status;
-  if (lab_search_run(&c->completed, how, &c->result, error))
-    return error->status;
-  if (!may_mistake_noise(c) && !may_overrate_noise(c))
-    return LAB_OK;
-  status = lab_weigh_runs(&c->completed, c->logs.run, &any, error);
-  if (status != LAB_OK || !any)
+  int hums = 0, any = 0, status = lab_search_run(&c->completed, how, &c->result, error);
+  if (status == LAB_OK && c->result.verdict == LAB_VERDICT_UNDECIDED && !c->result.cut_short)
+    status = remove_hum(&c->logs, &c->completed, &hums, error);
+  if (status == LAB_OK && (hums || may_mistake_noise(c) || may_overrate_noise(c)))
+    status = lab_weigh_runs(&c->completed, c->logs.run, &any, error);
+  if (status != LAB_OK || !(any || hums))
     return status;
   if (lab_unknowns_fit(&c->declared, LAB_ROUNDS_ALL, NULL, error))
     return error->status;
@@ -529,10 +552,10 @@ static int complete(const lab_request *q, const allowance *time, double fit_s, i
 
 /* What has changed since the baseline, which is asked before the new logs are traced. Where the logs of either side are
  * in doubt, that is all that can be said.
- * In:      time  of all; a third is for the model of the baseline, what is left but a fifth for the comparison */
+ * In:      time  of all; a third is for the model of the baseline, and as much for the comparison */
 static int compare(const lab_request *q, const allowance *time, lab_answer *a, lab_error *error)
 {
-  static const double baseline = 1.0 / 3, both = 0.8;
+  static const double baseline = 1.0 / 3, both = 0.7;
   const allowance own = {lab_cpu_time(), baseline * time->budget};
   lab_completion *then = &a->then;
   const lab_limitations *doubtful = a->now.logs.limitations.doubt ? &a->now.logs.limitations : &then->logs.limitations;
@@ -547,12 +570,43 @@ static int compare(const lab_request *q, const allowance *time, lab_answer *a, l
   on_progress(q, "completing the model of the baseline");
   if (fit_to(q, &a->rig, &own, then, &fit_s, error) || complete(q, &own, fit_s, 0, then, error))
     return error->status;
-  lab_unknowns_settle(&then->completed, &then->result.fit);
-  a->report.baseline = &then->completed.rig;
   on_progress(q, "looking for what has changed");
   then->completed.until = time->budget > 0 ? time->start + both * time->budget : 0;
-  return lab_changes_find(&then->completed, !lab_values_stand_in(then->result.verdict, then->result.fit.reduced_chi2),
-                          a->now.logs.run, a->now.logs.n, q->alpha, &a->changes, error);
+  if (lab_changes_find(&then->completed, !lab_values_stand_in(then->result.verdict, then->result.fit.reduced_chi2),
+                       a->now.logs.run, a->now.logs.n, q->alpha, &a->changes, error))
+    return error->status;
+  lab_unknowns_settle(&then->completed, &then->result.fit);
+  a->report.baseline = &then->completed.rig;
+  return LAB_OK;
+}
+
+static int is_found(const lab_search_result *r, int param)
+{
+  int i, any = 0;
+  for (i = 0; i < r->n_found; i++)
+    any |= r->found[i].param == param;
+  return any;
+}
+
+/* What explains the new logs by themselves, and the model of the baseline does not have, is no sign that all is as it
+ * was: the old logs may not show it. */
+static void doubt_unchanged(lab_answer *a)
+{
+  const lab_search_result *r = &a->now.result;
+  lab_changes *changes = &a->changes;
+  char name[LAB_PARAM_NAME_TEXT];
+  int i;
+  if (changes->condition != LAB_SINCE_UNCHANGED || r->verdict != LAB_VERDICT_EFFECT)
+    return;
+  for (i = 0; i < r->n_found; i++) {
+    const int param = r->found[i].param;
+    if (is_found(&a->then.result, param))
+      continue;
+    changes->condition = LAB_SINCE_CANNOT_TELL;
+    snprintf(changes->why, sizeof changes->why,
+             "by themselves the new logs show %s, which the baseline does not, but nor does it show that there was none",
+             lab_change_name(param, name));
+  }
 }
 
 /* With nothing to fit the declared model is judged as it stands: its command changes at the rows that show it. */
@@ -583,6 +637,7 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
   if (compare(q, &time, a, error) || complete(q, &time, fit_s, 1, &a->now, error) || conclude(a, error) ||
       leave_as_declared(a, error))
     return error->status;
+  doubt_unchanged(a);
   a->report.trace_s = a->now.result.score_s;
   on_progress(q, "evaluating on the held-out logs");
   if (hold_out(a, error) || lab_metrics_compare(&a->now.completed, &a->measured, &a->predicted, error))

@@ -390,6 +390,8 @@ static int has_sentence(int param)
 
 static void say_change(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
 {
+  char name[LAB_PARAM_NAME_TEXT];
+  int i;
   if (has_sentence(change->param))
     say_effect(report, change, text);
   else
@@ -398,6 +400,8 @@ static void say_change(const lab_report *report, const lab_change *change, char 
     ADD(text, " since %s s", LAB_NUMBER(change->begin.t, 4));
   if (change->end.known)
     ADD(text, " until %s s", LAB_NUMBER(change->end.t, 4));
+  for (i = 0; i < change->n_alike; i++)
+    ADD(text, "%s %s", i ? "," : ", or as well", lab_change_name(change->alike[i], name));
 }
 
 static void add_changes(const lab_report *report, char text[LAB_SENTENCE_TEXT])

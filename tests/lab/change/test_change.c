@@ -279,12 +279,13 @@ static second_rig plant_rig(uint64_t seed)
   return g;
 }
 
-static void compare_plant(const second_rig *early, const second_rig *late, double from)
+static void compare_plant(const second_rig *early, const second_rig *late, double from, double gain)
 {
   static const second_positioner positioner = {.gain = 10, .cutoff_high = 2};
   static double t_set[PLANT_COMMANDS], set[PLANT_COMMANDS];
   const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   const second_rig then = plant_rig(7);
+  second_positioner now_positioner = positioner;
   second_course course = {t_set, set, PLANT_COMMANDS, &positioner, NULL, 0};
   int i;
   for (i = 0; i < PLANT_COMMANDS; i++) {
@@ -297,6 +298,8 @@ static void compare_plant(const second_rig *early, const second_rig *late, doubl
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
   *pneu_param_at(&rig.params, lab_param_index("positioner.gain")) = 10;
   write_course(&then, &course, PLANT_ROWS - 1, 1, path[0]);
+  now_positioner.gain = gain;
+  course.positioner = &now_positioner;
   course.later = late;
   course.change = from;
   write_course(early, &course, PLANT_ROWS - 1, 1, path[1]);
@@ -308,7 +311,7 @@ TEST(test_lab_changes_find__supply_that_comes_back__has_the_time)
 {
   second_rig now = plant_rig(8), fails = now;
   fails.supply = 30e3;
-  compare_plant(&fails, &now, 47.3);
+  compare_plant(&fails, &now, 47.3, 10);
   assert_int_equal(changes.condition, LAB_SINCE_CHANGED);
   assert_change("supply_pressure", 30e3);
   assert_false(changes.change[0].begin.known);
@@ -320,7 +323,7 @@ TEST(test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset)
 {
   second_rig now = plant_rig(8), fails = now;
   fails.supply = 60e3;
-  compare_plant(&now, &fails, 80.6);
+  compare_plant(&now, &fails, 80.6, 10);
   assert_change("supply_pressure", 60e3);
   assert_since(&changes.change[0].begin, 80.6, 3);
   assert_false(changes.change[0].end.known);
@@ -331,8 +334,15 @@ TEST(test_lab_changes_find__plant_as_ever__is_unchanged)
   second_rig now = plant_rig(8);
   now.supply *= 1.02;
   now.position_bias = 5e-5;
-  compare_plant(&now, NULL, 0);
+  compare_plant(&now, NULL, 0, 10);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
+}
+
+TEST(test_lab_changes_find__half_the_gain__is_the_change)
+{
+  const second_rig now = plant_rig(8);
+  compare_plant(&now, NULL, 0, 5);
+  assert_change("positioner.gain", 5);
 }
 
 /* Something that no parameter has: it can be told neither that all is well nor what is not. */

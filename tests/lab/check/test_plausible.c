@@ -670,26 +670,43 @@ typedef struct humming {
   double jitter, lost;               /* of the row; of all rows */
 } humming;
 
-static double taken_off(const humming *h)
+enum { LOGGED, LEFT };
+
+/* Amplitude that is taken off what was logged, or off what a model leaves of it. */
+static double taken_from(const humming *h, int which)
 {
   enum { N = 1200 };
-  static double t[N], p[N];
+  static double t[N], p[N], left[N];
   static char path[] = "log.csv";
   lab_log log = {.path = path, .n = N, .n_runs = 1};
   size_t run[] = {0, N};
   uint64_t seed = 1;
   double row = 0;
-  int i;
+  int i, lines;
   for (i = 0; i < N; i++) {
     row += fixture_random(&seed, 0, 1) < h->lost ? 2 : 1;
     t[i] = (row + fixture_random(&seed, -h->jitter, h->jitter)) / h->rate;
     p[i] = 1e5 + h->amplitude * sin(6.283185307179586 * h->frequency * t[i]) + fixture_random(&seed, -500, 500);
+    left[i] = p[i] - 1e5;
   }
   log.run = run;
   log.value[LAB_CHANNEL_TIME] = t;
   log.value[LAB_CHANNEL_P] = p;
-  succeed(lab_log_remove_hum(&log, &limitations, &error));
+  if (which == LOGGED) {
+    succeed(lab_log_remove_hum(&log, &limitations, &error));
+  } else {
+    succeed(lab_log_remove_hum_left(&log, 0, N, LAB_CHANNEL_P, left, &lines, &limitations, &error));
+    assert_int_equal(lines > 0, log.hum[LAB_CHANNEL_P].amplitude > 0);
+  }
+  for (i = 0; i < N; i++) /* only noise is left of it */
+    assert_between(p[i] - 1e5, -900 - h->amplitude * (log.hum[LAB_CHANNEL_P].amplitude == 0),
+                   900 + h->amplitude * (log.hum[LAB_CHANNEL_P].amplitude == 0));
   return log.hum[LAB_CHANNEL_P].amplitude;
+}
+
+static double taken_off(const humming *h)
+{
+  return taken_from(h, LOGGED);
 }
 
 CASE(test_lab_log_remove_hum__only_the_mains__is_taken_off)
@@ -699,6 +716,17 @@ CASE(test_lab_log_remove_hum__only_the_mains__is_taken_off)
   assert_close(taken_off(&(humming){50, 64, 3e3, 0, 0}), 3e3, 0, 0.02); /* seen as 14 Hz */
   assert_close(taken_off(&(humming){43, 200, 3e3, 0, 0}), 0, 0, 0);     /* what swings otherwise may be the rig */
   assert_close(taken_off(&(humming){50, 7.2, 3e3, 0, 0}), 0, 0, 0);     /* so few rows a second: anything may be it */
+}
+
+/* Strokes are not there: a line may be slower, and rows fewer a second. */
+CASE(test_lab_log_remove_hum_left__slow_line__is_taken_off)
+{
+  const humming slow = {50, 52, 3e3, 0, 0}, few = {50, 15.9, 3e3, 0, 0}, other = {48.5, 52, 3e3, 0, 0};
+  assert_close(taken_off(&slow), 0, 0, 0);
+  assert_close(taken_from(&slow, LEFT), 3e3, 0, 0.02); /* seen as 2 Hz */
+  assert_close(taken_off(&few), 0, 0, 0);
+  assert_close(taken_from(&few, LEFT), 3e3, 0, 0.02);
+  assert_close(taken_from(&other, LEFT), 0, 0, 0);
 }
 
 CASE(test_lab_log_remove_hum__uneven_rows__are_as_good)

@@ -4,6 +4,7 @@
 
 #include "../../../apps/lab/base/array.h"
 #include "../../../apps/lab/fit/errors.h"
+#include "../../../apps/lab/fit/linear.h"
 #include "../../../apps/lab/fit/windowed.h"
 #include "../../../apps/lab/fit/unknowns.h"
 #include "../../../apps/lab/trace/candidate.h"
@@ -1315,4 +1316,91 @@ TEST(test_lab_unknowns_fit__cycle__finds_period_and_amplitudes)
   assert_close(u.unknown[first + 1].value, -60, 1, 0);
   assert_close(u.unknown[first + 2].value, 0.7, 1e-3, 0);
   assert_close(u.rig.term[0].to, u.unknown[first + 2].value, 0, 1e-12);
+}
+
+/* ---- Runs to first order ---- */
+
+/* What other values leave of runs that are not simulated again, less what simulations leave. */
+static double off_by(const lab_linear *l, double step)
+{
+  double sum = 0;
+  int i;
+  lab_unknowns_values(&u, theta);
+  theta[0] += step;
+  succeed(lab_unknowns_residuals(&u, theta, r, &error));
+  u.linear = l;
+  succeed(lab_unknowns_residuals(&u, theta, other, &error));
+  u.linear = NULL;
+  for (i = 0; i < DATA; i++)
+    sum += (r[i] - other[i]) * (r[i] - other[i]);
+  return sqrt(sum);
+}
+
+TEST(test_lab_linear_open__other_values__are_off_by_their_square)
+{
+  lab_linear l;
+  double step, far;
+  open_closely();
+  succeed(lab_linear_open(&u, &l, &error));
+  assert_int_equal(l.n, 4); /* no instants */
+  step = 0.004 * u.unknown[0].value;
+  assert_between(off_by(&l, 0), 0, 1e-9);
+  far = off_by(&l, step);
+  assert_true(far > 0);
+  assert_between(far / off_by(&l, step / 2), 3, 5);
+  lab_linear_close(&l);
+  close_all();
+}
+
+TEST(test_lab_linear_change__every_unknown__is_that_of_its_slope)
+{
+  static double J[LAB_FIT_MAX * (DATA + LAB_FIT_MAX)], first[LAB_FIT_MAX * (DATA + LAB_FIT_MAX)];
+  char done[LAB_FIT_MAX] = {0};
+  lab_linear l;
+  int j, i;
+  open_closely();
+  succeed(lab_linear_open(&u, &l, &error));
+  succeed(lab_unknowns_slopes_together(&u, theta, J, done, &error));
+  u.linear = &l;
+  memset(done, 0, sizeof done);
+  succeed(lab_unknowns_slopes_together(&u, theta, first, done, &error));
+  for (j = 0; j < l.n; j++) {
+    double off = 0, all = 0;
+    for (i = 0; i < DATA; i++) {
+      const size_t at = (size_t)j * u.m + (size_t)i;
+      off += (first[at] - J[at]) * (first[at] - J[at]);
+      all += J[at] * J[at];
+    }
+    assert_true(all > 0);
+    assert_between(sqrt(off / all), 0, 0.01);
+  }
+  lab_linear_close(&l);
+  close_all();
+}
+
+/* ---- A stem that is hardly damped ---- */
+
+TEST(test_lab_unknowns_leave_damping__hardly_any_behind_a_positioner__is_known_to_its_size)
+{
+  double declared;
+  int j;
+  declare();
+  declared = (double)rig.params.damping;
+  fit_list("damping", 0);
+  open_empty();
+  u.unknown[0].value = 0.2 * declared;
+  assert_int_equal(lab_unknowns_leave_damping(&u), 0); /* no set position */
+  run_log.value[LAB_CHANNEL_SP] = command;
+  run_log.value[LAB_CHANNEL_U] = NULL;
+  u.unknown[0].value = 0.4 * declared;
+  assert_int_equal(lab_unknowns_leave_damping(&u), 0);
+  u.unknown[0].value = 0.2 * declared;
+  assert_int_equal(lab_unknowns_leave_damping(&u), 1);
+  assert_int_equal(lab_unknowns_find(&u, PNEU_PARAM_damping), -1);
+  assert_close((double)u.rig.params.damping, declared, 0, 0);
+  succeed(lab_unknowns_hold(&u, &error));
+  j = lab_unknowns_find(&u, PNEU_PARAM_damping);
+  assert_true(j >= 0);
+  assert_close(u.unknown[j].tolerance, declared, 0, 1e-12);
+  close_all();
 }
