@@ -238,7 +238,7 @@ static int leave_out(const lab_sides *c, int which, lab_unknowns *u, double *chi
   *u = c->u;
   for (i = 0; i < lab_repeat_count; i++)
     if (lab_param_index(lab_repeats[i].name) == param && !is_in_part(&u->unknown[j]))
-      u->unknown[j].spread = sqrt(2) * lab_repeat_spread(&lab_repeats[i], &u->rig);
+      u->unknown[j].spread = sqrt(2) * lab_repeat_spread(&lab_repeats[i], &u->rig, c->row);
   u->unknown[j].value = 0;
   for (i = k = 0; i < u->n; i++)
     if (i != j || u->unknown[i].spread > 0)

@@ -1,6 +1,7 @@
 #include "repeat.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Chosen by judgement; not calibrated: regulators and weather, zeros and gains of ordinary transmitters, and what
  * friction does from day to day. Who knows better gives the measured supply as a channel. */
@@ -13,7 +14,7 @@ const lab_repeat lab_repeats[] = {
     {"position_bias.position_bias", 0.005, "stroke", 0, 1},
     {"pressure_gain.pressure_gain", 0, NULL, 0.002, 1},
     {"position_gain.position_gain", 0, NULL, 0.002, 1},
-    {"channel_skew.channel_skew", 0, NULL, 0.002, 1},
+    {"channel_skew.channel_skew", 0.3, "row", 0, 1},
     {"orifice_area", 0.01, NULL, 0, 1},
     {"fill_area", 0, NULL, 0, 1},
     {"dead_volume", 0.05, NULL, 0, 1},
@@ -26,8 +27,10 @@ const lab_repeat lab_repeats[] = {
 };
 const int lab_repeat_count = sizeof lab_repeats / sizeof *lab_repeats;
 
-double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig)
+double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig, double row)
 {
   const int of = lab_param_index(repeat->of ? repeat->of : repeat->name);
+  if (repeat->of && strcmp(repeat->of, "row") == 0)
+    return repeat->share * row;
   return repeat->share > 0 && of >= 0 ? repeat->share * fabs(lab_param_value(rig, of)) : repeat->spread;
 }

@@ -8,7 +8,7 @@
 typedef struct lab_repeat {
   const char *name; /* as lab_fit_name has it */
   double share;     /* standard deviation as a share of `of`, a parameter's name, or of its own value */
-  const char *of;   /* NULL: its own */
+  const char *of;   /* NULL: its own; "row": the time between two rows */
   double spread;    /* the same in its unit, where it is no share; both 0: it does not change by itself */
   int tested;       /* not 0: beyond that it is a change; 0: it is the weather */
 } lab_repeat;
@@ -16,7 +16,7 @@ typedef struct lab_repeat {
 extern const lab_repeat lab_repeats[];
 extern const int lab_repeat_count;
 
-/* The standard deviation on a rig, in the parameter's unit. */
-double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig);
+/* The standard deviation on a rig, in the parameter's unit.  In: row  [s] from row to row of the logs */
+double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig, double row);
 
 #endif

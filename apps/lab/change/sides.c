@@ -32,13 +32,25 @@ int lab_sides_release(lab_unknowns *u, int first, const lab_score *score, double
   return LAB_OK;
 }
 
+static double longest_row(const lab_run *run, int n)
+{
+  double row = 0;
+  int e;
+  for (e = 0; e < n; e++) {
+    const double *t = run[e].log->value[LAB_CHANNEL_TIME] + run[e].first;
+    row = fmax(row, (t[run[e].n - 1] - t[0]) / (double)run[e].n);
+  }
+  return row;
+}
+
 /* What differs from day to day. */
 static int add_repeats(lab_sides *c, lab_error *error)
 {
   int i;
   for (i = 0; i < lab_repeat_count; i++) {
     const int param = lab_param_index(lab_repeats[i].name);
-    const double spread = param < 0 ? 0 : sqrt(2) * lab_repeat_spread(&lab_repeats[i], &c->u.rig); /* two days */
+    const double spread =
+        param < 0 ? 0 : sqrt(2) * lab_repeat_spread(&lab_repeats[i], &c->u.rig, c->row); /* two days */
     if (spread > 0 && lab_unknowns_add_change(&c->u, param, c->first, spread, error))
       return error->status;
   }
@@ -172,11 +184,13 @@ static void drop_instants(lab_unknowns *u)
 }
 
 /* Follow the baseline to first order from here on: it tells its own values, and what is fitted here are the new logs.
- */
+ * Where it is seen coarsely it is simulated each time, with what was held on it as it is. */
 static int follow_to_first_order(lab_sides *c, lab_error *error)
 {
-  if (c->base.window > 0)
+  if (c->base.window > 0) {
+    lab_unknowns_settle(&c->u, NULL);
     return LAB_OK;
+  }
   if (lab_linear_open(&c->base, &c->old, error))
     return error->status;
   c->u.linear = &c->old;
@@ -211,6 +225,7 @@ int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, in
   memcpy(c->white, c->run, sizeof c->white);
   c->u = c->base = *then;
   c->first = then->n_runs;
+  c->row = longest_row(c->run, then->n_runs + n_now);
   if (follow_to_first_order(c, error))
     return error->status;
   if (lab_unknowns_join(&c->u, c->run, then->n_runs + n_now, error) || add_repeats(c, error))

@@ -401,7 +401,9 @@ static void say_change(const lab_report *report, const lab_change *change, char 
   if (change->end.known)
     ADD(text, " until %s s", LAB_NUMBER(change->end.t, 4));
   for (i = 0; i < change->n_alike; i++)
-    ADD(text, "%s %s", i ? "," : ", or as well", lab_change_name(change->alike[i], name));
+    ADD(text, "%s %s", i ? "," : " (or", lab_change_name(change->alike[i], name));
+  if (change->n_alike)
+    ADD(text, ": the logs cannot tell)");
 }
 
 static void add_changes(const lab_report *report, char text[LAB_SENTENCE_TEXT])
