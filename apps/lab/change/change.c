@@ -307,10 +307,12 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
 
 /* Whether a change is more than what the model leaves may feign: of the many effects one or the other bends to that, so
  * that a new one has to be as plain as one that is added (PLAIN_BIC). */
-static int is_plain(const lab_change *change)
+static int is_plain(const lab_sides *c, const lab_change *change)
 {
-  return pneu_effect_of(change->param) < 0 || change->then != (double)lab_param_info(change->param).neutral ||
-         change->statistic > lab_constant(LAB_PLAIN_BIC);
+  const int j = lab_unknowns_find(&c->u, change->param);
+  const int is_new = change->then == (double)lab_param_info(change->param).neutral ||
+                     (j >= 0 && lab_unknown_is_held(&c->u.unknown[j]));
+  return pneu_effect_of(change->param) < 0 || !is_new || change->statistic > lab_constant(LAB_PLAIN_BIC);
 }
 
 /* Whether the logs tell the value of a change from none. */
@@ -341,7 +343,7 @@ static int describe(lab_sides *c, lab_changes *changes, int *unknown, lab_error 
       status = error->status;
       break;
     }
-    if (!(change->p_value < changes->level) || !is_plain(change))
+    if (!(change->p_value < changes->level) || !is_plain(c, change))
       continue;
     if (followed || is_known(c, fit, change))
       changes->n++;

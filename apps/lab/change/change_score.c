@@ -234,17 +234,28 @@ static void list_effects(const lab_sides *c, lab_scores *scores)
   }
 }
 
-/* What was fitted; what the table of repeats has, unless it is one of two names for the same; every effect. */
+/* Whether a parameter is one of a positioner that the rig does not have. */
+static int is_of_no_positioner(const lab_rig *rig, int param)
+{
+  return pneu_effect_of(param) == pneu_effect_find("positioner") && !lab_rig_has_positioner(rig);
+}
+
+/* What was fitted, and not held; what the table of repeats has, unless it is one of two names for the same; every
+ * effect. */
 static void list_changes(const lab_sides *c, lab_scores *scores)
 {
   int i, j;
   memset(scores, 0, sizeof *scores);
-  for (j = 0; j < c->u.n; j++)
-    if (c->u.unknown[j].kind == LAB_UNKNOWN_PARAM && c->u.unknown[j].run == LAB_ALL_RUNS)
-      list_one(c, c->u.unknown[j].index, -1, scores);
-  for (i = 0; i < lab_repeat_count; i++)
-    if (lab_repeats[i].tested)
-      list_one(c, lab_param_index(lab_repeats[i].name), -1, scores);
+  for (j = 0; j < c->u.n; j++) {
+    const lab_unknown *x = &c->u.unknown[j];
+    if (x->kind == LAB_UNKNOWN_PARAM && x->run == LAB_ALL_RUNS && !lab_unknown_is_held(x))
+      list_one(c, x->index, -1, scores);
+  }
+  for (i = 0; i < lab_repeat_count; i++) {
+    const int param = lab_param_index(lab_repeats[i].name);
+    if (lab_repeats[i].tested && !is_of_no_positioner(&c->u.rig, param))
+      list_one(c, param, -1, scores);
+  }
   list_effects(c, scores);
 }
 

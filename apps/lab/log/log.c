@@ -7,7 +7,7 @@
 #include "logread.h"
 #include "../base/number.h"
 
-/* A command may be a measured one that overshoots a little; beyond this it is in other units. */
+/* A command may be a measured one that overshoots a little, and is 1; beyond this it is in other units. */
 static const double command_max = 1.05;
 static const double set_point_max = 2; /* a set position may lie beyond the stops */
 
@@ -260,6 +260,15 @@ static int allocate(struct reader *r, size_t rows)
   return log->line && log->run ? LAB_OK : lab_fail_memory(r->error, log->path);
 }
 
+/* An opening is open at most. */
+static void clip_command(lab_log *log, const lab_log_format *format)
+{
+  double *u = format->command_is_pressure ? NULL : log->value[LAB_CHANNEL_U];
+  size_t i;
+  for (i = 0; u && i < log->n; i++)
+    u[i] = u[i] > 1 ? 1 : u[i] < -1 ? -1 : u[i];
+}
+
 static int finish(struct reader *r)
 {
   lab_log *log = r->log;
@@ -271,6 +280,7 @@ static int finish(struct reader *r)
   if (r->format->n_quantities && lab_log_join(log, r->error))
     return r->error->status;
   log->run[log->n_runs] = log->n;
+  clip_command(log, r->format);
   return lab_log_shape(log, r->format, r->error);
 }
 

@@ -365,8 +365,8 @@ static int remove_hum(lab_logs *logs, const lab_unknowns *u, int *any, lab_error
     for (c = 0; c < x->n_channels && status == LAB_OK; c++, r += x->n) {
       for (i = 0; i < x->n; i++)
         r[i] *= x->sigma[c];
-      status = lab_log_remove_hum_left((lab_log *)x->log, x->first, x->n, x->channel[c], r, &lines, &logs->limitations,
-                                       error);
+      status = lab_log_remove_hum_left(&logs->log[x->log - logs->log], x->first, x->n, x->channel[c], r, &lines,
+                                       &logs->limitations, error);
       *any |= lines > 0;
     }
   }

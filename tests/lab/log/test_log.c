@@ -367,6 +367,12 @@ CASE(test_lab_log_read__set_position_beside_a_command__is_only_shown)
   assert_int_equal(lab_log_command(&rows), -1);
 }
 
+CASE(test_lab_log_read__command_that_overshoots__is_fully_open)
+{
+  read_log("t [s],u [%],p [Pa]\n0,0,0\n1,101.6,1\n2,-104,2\n3,99,3\n");
+  assert_column(U, 1e-15, 0, 1, -1, 0.99);
+}
+
 CASE(test_lab_log_read__command_as_pressure__is_not_bounded_by_one)
 {
   format.command_is_pressure = 1;
