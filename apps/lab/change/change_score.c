@@ -237,7 +237,8 @@ static void list_effects(const lab_sides *c, lab_scores *scores)
 /* Whether a parameter is one of a positioner that the rig does not have. */
 static int is_of_no_positioner(const lab_rig *rig, int param)
 {
-  return pneu_effect_of(param) == pneu_effect_find("positioner") && !lab_rig_has_positioner(rig);
+  const int effect = param < 0 ? -1 : pneu_effect_of(param);
+  return effect >= 0 && effect == pneu_effect_find("positioner") && !lab_rig_has_positioner(rig);
 }
 
 /* What was fitted, and not held; what the table of repeats has, unless it is one of two names for the same; every
