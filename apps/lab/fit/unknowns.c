@@ -146,6 +146,7 @@ int lab_unknowns_leave_damping(lab_unknowns *u)
   for (u->n--; j < u->n; j++)
     u->unknown[j] = u->unknown[j + 1];
   u->rig.params.damping = u->declared.damping;
+  lab_unknowns_undo_fit(u); /* the others were fitted beside it */
   lab_unknowns_count(u);
   return 1;
 }

@@ -134,7 +134,8 @@ int lab_unknown_is_held(const lab_unknown *x);
 int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error);
 
 /* A stem that is hardly damped hunts behind a positioner, and a fit that has gone there does not come back. Leave such
- * a damping as it is declared, known to its own size, to vary with what is held.  Returns: whether it was one */
+ * a damping as it is declared, known to its own size, to vary with what is held, and the others as they were before a
+ * fit.  Returns: whether it was one */
 int lab_unknowns_leave_damping(lab_unknowns *u);
 
 /* Take up a free term, whose values in `term` are the start; over a cycle, with its period.
