@@ -58,18 +58,6 @@ static double peak(const double *value, const double *error)
   return value[0] - (k2 * sum - k1 * moment) / (n * k2 - k1 * k1);
 }
 
-/* How far a value is outside of what lies between one of the two before it and one of the two after it: a row of a
- * short stroke is between all of them. */
-static double outside(const double *y)
-{
-  double most = 0;
-  int before, after;
-  for (before = -2; before < 0; before++)
-    for (after = 1; after <= 2; after++)
-      most = fmax(most, fmax(y[0] - fmax(y[before], y[after]), fmin(y[before], y[after]) - y[0]));
-  return most;
-}
-
 /* Its error is far from those beside it, and it is the log that has the larger peak there, not the model.
  * In:      i     two rows from either end at least
  *          size  least distance */
@@ -78,8 +66,7 @@ static int stands_alone(const struct record *c, size_t i, double size)
   const double *e = c->error + i, *y = c->y + i;
   double range;
   const double off = fabs(e[0] - beside(e, &range)), measured = peak(y, e);
-  return off > size && range < agree * c->noise && outside(y) > size / 2 &&
-         fabs(measured) > fabs(measured - peak(e, e));
+  return off > size && range < agree * c->noise && fabs(measured) > fabs(measured - peak(e, e));
 }
 
 /* Make gaps in the errors of what stands alone.  Returns: how many */
