@@ -382,6 +382,21 @@ static int conclude(lab_sides *c, int unknown, lab_changes *changes, lab_error *
   return LAB_OK;
 }
 
+/* Whether a comparison failed for want of time. */
+static int is_out_of_time(const lab_sides *c, int status)
+{
+  return status == LAB_NUMERIC && lab_cpu_is_spent(c->u.until);
+}
+
+/* What was found when the time ended is told.  Returns: status */
+static int end_with_found(const lab_sides *c, int status, lab_changes *changes)
+{
+  if (c->n == 0 || !is_out_of_time(c, status))
+    return status;
+  snprintf(changes->why, sizeof changes->why, "the comparison was ended by --budget: more may have changed");
+  return LAB_OK;
+}
+
 /* Take up one change after the other. A supply that was followed is one even if there is no time to try others.
  * In/out:  course  the followed supply, fitted or not */
 static int take_all(lab_sides *c, double alpha, extension *course, lab_changes *changes, lab_error *error)
@@ -390,16 +405,14 @@ static int take_all(lab_sides *c, double alpha, extension *course, lab_changes *
   while (taken && c->n < LAB_CHANGES_MAX) {
     lab_scores scores;
     const int status = lab_change_scores(c, &scores, error);
-    if (status == LAB_NUMERIC && c->n > 0)
-      return LAB_OK;
     if (status != LAB_OK && !(status == LAB_NUMERIC && course->fitted))
-      return status;
+      return end_with_found(c, status, changes);
     if (!changes->tests) {
       changes->tests = scores.tests;
       changes->level = alpha / (scores.tests ? scores.tests : 1);
     }
     if (take_best(c, &scores, changes->level, course, &taken, error))
-      return error->status == LAB_NUMERIC && c->n > 0 ? (int)LAB_OK : error->status;
+      return end_with_found(c, error->status, changes);
   }
   return LAB_OK;
 }
@@ -427,7 +440,7 @@ int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, 
   memset(changes, 0, sizeof *changes);
   if (status == LAB_OK)
     status = compare(c, alpha, changes, error);
-  if (c && status == LAB_NUMERIC && lab_cpu_is_spent(c->u.until)) {
+  if (c && is_out_of_time(c, status)) {
     snprintf(changes->why, sizeof changes->why, "the comparison was ended by --budget");
     status = LAB_OK;
   }

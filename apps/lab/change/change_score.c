@@ -100,12 +100,10 @@ static void set_shape(tried *t, lab_trial *trial, int shape, double value)
   *pneu_param_at(&t->u.rig.params, shape) = (pneu_real)value;
 }
 
-/* Score every shape throughout the new log, if that is wanted, and the best, else the first, from some rows of it on.
- * In:      within  whether to do so
- * In/out:  parts   number of slopes that were judged there
- * Returns: that of those throughout */
-static int score_shapes(tried *t, lab_trial *trial, int throughout, int within, lab_score *score, int *parts,
-                        lab_error *all)
+/* Score every shape throughout the new log; or the best, else the first, from some rows of it on.
+ * In:      within  which of these
+ * Returns: the number of slopes judged */
+static int score_shapes(tried *t, lab_trial *trial, int within, lab_score *score, lab_error *all)
 {
   const int shapes = score->shape >= 0 ? LAB_SCORE_SHAPES : 1;
   double *slope = malloc(t->p->m * sizeof *slope);
@@ -116,24 +114,22 @@ static int score_shapes(tried *t, lab_trial *trial, int throughout, int within, 
     lab_fail_together(all, &error);
     return 0;
   }
-  for (k = 0; k < shapes; k++) {
+  for (k = 0; k < shapes && !within; k++) {
     if (score->shape >= 0)
       set_shape(t, trial, score->shape, lab_score_shape(&t->u.rig.params, score, k));
-    if (throughout)
-      tests += lab_score_try(t->p, trial, score, slope, all);
+    tests += lab_score_try(t->p, trial, score, slope, all);
   }
-  if (score->shape >= 0)
+  if (within && score->shape >= 0)
     set_shape(t, trial, score->shape,
               score->shape_value > 0 ? score->shape_value : lab_score_shape(&t->u.rig.params, score, 0));
   for (k = 1; k < LAB_ONSET_PLACES && within; k++)
-    *parts += score_since(t, trial, t->u.run[t->u.n_runs - 1].n * (size_t)k / LAB_ONSET_PLACES, slope, score, all);
+    tests += score_since(t, trial, t->u.run[t->u.n_runs - 1].n * (size_t)k / LAB_ONSET_PLACES, slope, score, all);
   free(slope);
   return tests;
 }
 
 /* In:  as score_shapes  Returns: the same */
-static int score_new(const lab_projection *p, int first, int throughout, int within, lab_score *score, int *parts,
-                     lab_error *all)
+static int score_new(const lab_projection *p, int first, int within, lab_score *score, lab_error *all)
 {
   lab_error error = {LAB_OK, ""};
   tried *t = calloc(1, sizeof *t);
@@ -145,7 +141,7 @@ static int score_new(const lab_projection *p, int first, int throughout, int wit
     lab_trial trial = {lab_change_usual(&t->u, score->param), x->upper, -x->lower, 0, change_slope, t, 0};
     if (trial.usual > trial.up)
       trial.usual = -trial.usual;
-    tests = score_shapes(t, &trial, throughout, within, score, parts, all);
+    tests = score_shapes(t, &trial, within, score, all);
   }
   lab_fail_together(all, &error);
   if (t)
@@ -163,9 +159,8 @@ static void judge(lab_score *score, int parts)
 static int score_change(const lab_projection *p, int first, lab_score *score, lab_error *all)
 {
   const int j = lab_sides_find(p->u, score->param);
-  int parts = 0;
-  const int tests = j >= 0 ? score_release(p, j, score, all) : score_new(p, first, 1, 0, score, &parts, all);
-  judge(score, parts);
+  const int tests = j >= 0 ? score_release(p, j, score, all) : score_new(p, first, 0, score, all);
+  judge(score, 0);
   return tests;
 }
 
@@ -179,13 +174,9 @@ static void score_parts(const lab_projection *p, int first, lab_scores *scores, 
   if (first + 1 < p->u->n_runs || p->u->window > 0 || !(p->excess > noise))
     return;
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < scores->n; i++) {
-    int parts = 0;
-    if (i >= ASKED && lab_sides_find(p->u, scores->of[i].param) < 0)
-      continue;
-    score_new(p, first, 0, 1, &scores->of[i], &parts, all);
-    judge(&scores->of[i], parts);
-  }
+  for (i = 0; i < scores->n; i++)
+    if (i < ASKED || lab_sides_find(p->u, scores->of[i].param) >= 0)
+      judge(&scores->of[i], score_new(p, first, 1, &scores->of[i], all));
 }
 
 /* ---- What is tested ---- */

@@ -29,8 +29,9 @@ const int lab_repeat_count = sizeof lab_repeats / sizeof *lab_repeats;
 
 double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig, double row)
 {
-  const int of = lab_param_index(repeat->of ? repeat->of : repeat->name);
+  int of;
   if (repeat->of && strcmp(repeat->of, "row") == 0)
     return repeat->share * row;
+  of = lab_param_index(repeat->of ? repeat->of : repeat->name);
   return repeat->share > 0 && of >= 0 ? repeat->share * fabs(lab_param_value(rig, of)) : repeat->spread;
 }

@@ -200,16 +200,13 @@ static int follow_to_first_order(lab_sides *c, lab_error *error)
 
 void lab_sides_whole(const lab_sides *c, const lab_unknowns *u, lab_unknowns *whole)
 {
-  int j, k = 0;
+  enum { ROOM = 2 }; /* for an effect and its shape */
+  int j;
   *whole = *u;
-  if (!u->linear)
-    return;
   whole->linear = NULL;
-  whole->n = c->base.n;
-  for (j = 0; j < c->base.n; j++)
-    whole->unknown[j] = c->base.unknown[j].kind == LAB_UNKNOWN_INSTANT ? c->base.unknown[j] : u->unknown[k++];
-  for (; k < u->n && whole->n < LAB_FIT_MAX; k++)
-    whole->unknown[whole->n++] = u->unknown[k];
+  for (j = 0; u->linear && j < c->base.n && whole->n + ROOM < LAB_FIT_MAX; j++)
+    if (c->base.unknown[j].kind == LAB_UNKNOWN_INSTANT)
+      whole->unknown[whole->n++] = c->base.unknown[j];
   lab_unknowns_count(whole);
 }
 

@@ -45,7 +45,9 @@ int lab_sides_settle(lab_unknowns *u, double *chi2, lab_error *error);
  * astray, where another valley may hold it. */
 int lab_sides_approach(lab_unknowns *u, double *chi2, lab_error *error);
 
-/* Both sides to be simulated, with the instants of all commands.  In: u  as c->u  Out: whole */
+/* Both sides to be simulated, with the instants of the commands of both, as far as there is room.
+ * In:  u  as c->u
+ * Out: whole */
 void lab_sides_whole(const lab_sides *c, const lab_unknowns *u, lab_unknowns *whole);
 
 /* What is left of either side, [1] over what counts as noise. */

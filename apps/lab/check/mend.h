@@ -23,7 +23,8 @@ void lab_log_even_stamps(lab_log *log, lab_limitations *limitations);
  * Returns: LAB_OK, LAB_WORLD. */
 int lab_log_remove_hum(lab_log *log, lab_limitations *limitations, lab_error *error);
 
-/* The same where a model leaves it, which shows slower lines, and in fewer rows a second.
+/* The same where a model leaves it, which shows slower lines, of at most 50 rows a period, and in fewer rows, 8 a
+ * second.
  * In:      left   [SI] what a model leaves of n rows from `first` on, 0 at a gap
  * In/out:  log    those rows of the channel
  * Out:     lines  how many were taken off

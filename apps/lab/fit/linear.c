@@ -5,12 +5,7 @@
 
 #include "../base/clock.h"
 
-static size_t rows_of(const lab_run *x)
-{
-  return x->n * (size_t)x->n_channels;
-}
-
-/* Views of the runs, every row of which weighs the same.  In: weight  ones, as many as the longest has rows */
+/* Views of the runs, every row of which weighs the same.  In: weight  ones, for the rows and channels of any run */
 static void open_plain(const lab_unknowns *u, double *weight, lab_run *run, lab_unknowns *plain)
 {
   int e;
@@ -129,13 +124,13 @@ static size_t first_of(const lab_unknowns *u, int e)
 {
   size_t first = 0;
   while (--e >= 0)
-    first += rows_of(&u->run[e]);
+    first += lab_unknowns_residuals_in(u, e);
   return first;
 }
 
 void lab_linear_errors(const lab_unknowns *u, int e, const double *theta, double *r)
 {
-  const size_t first = first_of(u, e), n = rows_of(&u->run[e]);
+  const size_t first = first_of(u, e), n = lab_unknowns_residuals_in(u, e);
   memcpy(r, u->linear->error + first, n * sizeof *r);
   move(u, first, n, u->linear->theta, theta, r);
   over_noise(&u->run[e], r);
@@ -143,7 +138,7 @@ void lab_linear_errors(const lab_unknowns *u, int e, const double *theta, double
 
 void lab_linear_change(const lab_unknowns *u, int e, const double *theta, const double *other, double *change)
 {
-  const size_t n = rows_of(&u->run[e]);
+  const size_t n = lab_unknowns_residuals_in(u, e);
   memset(change, 0, n * sizeof *change);
   move(u, first_of(u, e), n, theta, other, change);
   over_noise(&u->run[e], change);

@@ -138,13 +138,13 @@ static void keep_damped(const lab_unknowns *u, lab_unknown *x)
 int lab_unknowns_leave_damping(lab_unknowns *u)
 {
   static const double hardly = 0.3; /* of what is declared, by judgement */
-  int j = lab_unknowns_find(u, PNEU_PARAM_damping), e, follows = 0;
+  const int j = lab_unknowns_find(u, PNEU_PARAM_damping);
+  int e, follows = 0;
   for (e = 0; e < u->n_runs; e++)
     follows |= lab_log_command(u->run[e].log) == LAB_CHANNEL_SP;
   if (j < 0 || !follows || u->unknown[j].value > hardly * (double)u->declared.damping)
     return 0;
-  for (u->n--; j < u->n; j++)
-    u->unknown[j] = u->unknown[j + 1];
+  lab_unknowns_drop(u, PNEU_PARAM_damping);
   u->rig.params.damping = u->declared.damping;
   lab_unknowns_undo_fit(u); /* the others were fitted beside it */
   lab_unknowns_count(u);

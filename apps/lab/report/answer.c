@@ -354,7 +354,7 @@ static double after(double seconds)
   return seconds > 0 ? lab_cpu_time() + seconds : 0;
 }
 
-/* Take off the logs what of the mains a model leaves.  Out: any  whether there was some */
+/* Take off the logs what of the mains a model leaves.  In/out: any  not 0 once there was some */
 static int remove_hum(lab_logs *logs, const lab_unknowns *u, int *any, lab_error *error)
 {
   double *left = malloc((u->n_rows + 1) * sizeof *left), *r = left;
