@@ -184,10 +184,10 @@ static void drop_instants(lab_unknowns *u)
 }
 
 /* Follow the baseline to first order from here on: it tells its own values, and what is fitted here are the new logs.
- * Where it is seen coarsely it is simulated each time, with what was held on it as it is. */
-static int follow_to_first_order(lab_sides *c, lab_error *error)
+ * Where its model lacks something, or sees it coarsely, it is simulated each time, with what was held on it as it is. */
+static int follow_to_first_order(lab_sides *c, int decided, lab_error *error)
 {
-  if (c->base.window > 0) {
+  if (!decided || c->base.window > 0) {
     lab_unknowns_settle(&c->u, NULL);
     return LAB_OK;
   }
@@ -223,7 +223,7 @@ int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, in
   c->u = c->base = *then;
   c->first = then->n_runs;
   c->row = longest_row(c->run, then->n_runs + n_now);
-  if (follow_to_first_order(c, error))
+  if (follow_to_first_order(c, decided, error))
     return error->status;
   if (lab_unknowns_join(&c->u, c->run, then->n_runs + n_now, error) || add_repeats(c, error))
     return error->status;
