@@ -8,6 +8,9 @@
 /* Sum of products; in as many parts as the machine's vectors have places, so that the last digits depend on it. */
 double lab_dot(const double *a, const double *b, size_t n);
 
+/* sum[k] += a . (b + k stride), for every one of the columns of b, of n entries each. */
+void lab_dots(const double *a, const double *b, size_t stride, int columns, size_t n, double *sum);
+
 /* Take the span of n orthonormal columns, `stride` apart, of m entries out of v; a second time where little is left,
  * for rounding. Returns: length left. */
 double lab_project_out(const double *basis, int n, size_t stride, size_t m, double *v);

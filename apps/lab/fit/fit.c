@@ -77,34 +77,50 @@ int lab_fit_slopes(const lab_fit_problem *p, const double *theta, const double *
   return lab_fit_other_slopes(p, theta, r, J, done, error);
 }
 
-/* Where a column begins to differ from 0, or a little before: what only the last of many logs have begins there. */
-static size_t begins_at(const double *column, size_t m)
+static int is_zero(const double *column, size_t n)
 {
-  enum { BLOCK = 64 };
   size_t i = 0;
-  while (i < m && column[i] == 0)
+  while (i < n && column[i] == 0)
     i++;
-  return i - i % BLOCK;
+  return i == n;
+}
+
+/* Add what rows of J from `from` on, n of them, have in J'J and J'r: columns that are 0 there have nothing, such as
+ * those of what only another log has, or of an instant long past. */
+static void add_rows(descent *d, size_t from, size_t n)
+{
+  const size_t m = d->problem->m;
+  const double *J = d->J + from;
+  int alive[N], j, k, end;
+  for (j = 0; j < d->problem->n; j++) {
+    alive[j] = !is_zero(J + (size_t)j * m, n);
+    if (!alive[j])
+      continue;
+    d->g[j] += lab_dot(J + (size_t)j * m, d->r + from, n);
+    for (k = 0; k <= j; k = end) {
+      end = k + 1;
+      while (end <= j && alive[end] == alive[k])
+        end++;
+      if (alive[k])
+        lab_dots(J + (size_t)j * m, J + (size_t)k * m, m, end - k, n, d->A[j] + k);
+    }
+  }
 }
 
 /* What follows from the slopes. */
 static void multiply(descent *d)
 {
-  const lab_fit_problem *p = d->problem;
-  size_t first[N];
+  enum { PART = 256 }; /* rows whose columns are near at hand together */
+  const size_t m = d->problem->m;
+  const int n = d->problem->n;
+  size_t from;
   int j, k;
-  for (j = 0; j < p->n; j++)
-    first[j] = begins_at(d->J + (size_t)j * p->m, p->m);
-#pragma omp parallel for schedule(dynamic) private(k)
-  for (j = 0; j < p->n; j++) {
-    const double *column = d->J + (size_t)j * p->m;
-    d->g[j] = lab_dot(column + first[j], d->r + first[j], p->m - first[j]);
-    for (k = 0; k <= j; k++) {
-      const size_t from = first[j] > first[k] ? first[j] : first[k];
-      d->A[j][k] = lab_dot(column + from, d->J + (size_t)k * p->m + from, p->m - from);
-    }
-  }
-  for (j = 0; j < p->n; j++)
+  memset(d->g, 0, sizeof d->g);
+  for (j = 0; j < n; j++)
+    memset(d->A[j], 0, (size_t)n * sizeof *d->A[j]);
+  for (from = 0; from < m; from += PART)
+    add_rows(d, from, m - from < PART ? m - from : PART);
+  for (j = 0; j < n; j++)
     for (k = 0; k < j; k++)
       d->A[k][j] = d->A[j][k];
 }

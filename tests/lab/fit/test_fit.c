@@ -531,3 +531,50 @@ TEST(test_lab_solve_positive__not_positive__is_refused)
   assert_int_equal(lab_solve_positive(2, 2, flat, b), -1);
   assert_int_equal(lab_solve_positive(2, 2, none, b), -1);
 }
+
+/* ---- Columns that are 0 in parts ---- */
+
+enum { LONG = 1500, WAVES = 9 };
+
+/* Each unknown acts for a while: none, some or all of those before it do so too. */
+static double wave(int j, int i)
+{
+  return i >= 150 * j && i < 150 * j + 400 ? 1e3 * sin((j + 1) * 0.01 * i) + 100 * j : 0;
+}
+
+static int residuals_of_waves(void *context, const double *theta, double *r, lab_error *e)
+{
+  int i, j;
+  (void)context, (void)e;
+  for (i = 0; i < LONG; i++)
+    for (j = 0, r[i] = 0; j < WAVES; j++)
+      r[i] += wave(j, i) * (theta[j] - (j - 3));
+  return LAB_OK;
+}
+
+static int slope_of_wave(void *context, const double *theta, const double *r, int j, double *column, lab_error *e)
+{
+  int i;
+  (void)context, (void)theta, (void)r, (void)e;
+  for (i = 0; i < LONG; i++)
+    column[i] = wave(j, i);
+  return LAB_OK;
+}
+
+TEST(test_lab_fit__columns_zero_in_parts__one_step_suffices)
+{
+  double lower[WAVES], upper[WAVES], theta[WAVES] = {0};
+  const lab_fit_problem p = {.n = WAVES,
+                             .m = LONG,
+                             .lower = lower,
+                             .upper = upper,
+                             .residuals = residuals_of_waves,
+                             .slope = slope_of_wave,
+                             .steps = 1};
+  int j;
+  for (j = 0; j < WAVES; j++)
+    lower[j] = -100, upper[j] = 100;
+  succeed(lab_fit(&p, theta, &chi2, &error));
+  for (j = 0; j < WAVES; j++)
+    assert_close(theta[j], j - 3, 1e-4, 0);
+}
