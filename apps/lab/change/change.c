@@ -50,11 +50,22 @@ static int keeps_baseline(const lab_sides *c, const extension *x, lab_error *err
   return lab_sides_rest_of_all(c, &x->u, c->white, &left, error) == LAB_OK && !lab_rest_spoils_baseline(&left);
 }
 
+/* The model with the values that the baseline alone has, but for the changes taken up: a difference that is missing
+ * bends them. */
+static void unbend(const lab_sides *c, lab_unknowns *u)
+{
+  int j;
+  for (j = 0; j < c->then.n; j++)
+    if (u->unknown[j].kind != LAB_UNKNOWN_CHANGE || u->unknown[j].spread > 0)
+      u->unknown[j].value = c->then.unknown[j].value;
+  lab_unknowns_take(u);
+}
+
+/* In/out:  x  the model to begin with */
 static int refit_from(const lab_sides *c, const lab_score *score, double size, double level, extension *x,
                       lab_error *all)
 {
   lab_error error = {LAB_OK, ""};
-  x->u = c->u;
   x->param = score->param;
   x->shape = score->shape;
   x->fitted = 0;
@@ -69,14 +80,22 @@ static int refit_from(const lab_sides *c, const lab_score *score, double size, d
   return x->fitted;
 }
 
-/* From what the slope says and, where that leads nowhere near what it promises, from the usual size. */
+/* From what the slope says and, where that leads nowhere near what it promises, from the usual size; with the
+ * baseline's values, if it is spoilt where it is followed to first order. */
 static void refit(const lab_sides *c, const lab_score *score, double level, extension *x, lab_error *all)
 {
   static const double kept = 0.5; /* of a promise */
   extension *again;
+  x->u = c->u;
   if (refit_from(c, score, score->size, level, x, all) && c->chi2 - x->chi2 > kept * score->statistic)
     return;
-  again = calloc(1, sizeof *again);
+  again = malloc(sizeof *again);
+  if (again) {
+    *again = *x;
+    again->u = c->u;
+    if (!x->fitted && c->u.linear)
+      unbend(c, &again->u);
+  }
   if (again && refit_from(c, score, copysign(lab_change_usual(&c->u, score->param), score->size), level, again, all) &&
       (!x->fitted || again->chi2 < x->chi2))
     *x = *again;
@@ -167,31 +186,45 @@ static void take(lab_sides *c, const extension *best, const extension *x, int n)
   c->chi2 = best->chi2;
 }
 
+/* Chi-square with an effect on both sides; HUGE_VAL where that cannot be fitted. */
+static double chi2_of_both(const lab_sides *c, const extension *x, lab_unknowns *both, lab_error *error)
+{
+  double chi2;
+  lab_sides_whole(c, &c->u, both);
+  if (lab_unknowns_add(both, x->param, x->u.unknown[lab_sides_find(&x->u, x->param)].value, error) ||
+      (x->shape >= 0 &&
+       lab_unknowns_add(both, x->shape, x->u.unknown[lab_unknowns_find(&x->u, x->shape)].value, error)) ||
+      lab_unknowns_fit(both, LAB_ROUNDS_ALL, &chi2, error))
+    return HUGE_VAL;
+  return chi2;
+}
+
 /* Whether the old logs may have had it as well, because it acts where they have not been: then nothing has changed.
  * In:      x  fitted */
 static int was_there(const lab_sides *c, const extension *x, lab_error *all)
 {
   lab_error error = {LAB_OK, ""};
-  lab_unknowns *both = malloc(sizeof *both);
-  double chi2;
-  int there = 0;
+  lab_unknowns *both;
+  int there;
+  if (x->is_course || pneu_effect_of(x->param) < 0 || lab_unknowns_find(&c->u, x->param) >= 0)
+    return 0;
+  both = malloc(sizeof *both);
+  there = both && chi2_of_both(c, x, both, &error) < x->chi2 + lab_constant(LAB_ALIKE_BIC);
   if (!both)
     lab_fail_memory(&error, "a model of both sides");
-  if (both && !x->is_course && pneu_effect_of(x->param) >= 0 && lab_unknowns_find(&c->u, x->param) < 0) {
-    lab_sides_whole(c, &c->u, both);
-    if (!lab_unknowns_add(both, x->param, x->u.unknown[lab_sides_find(&x->u, x->param)].value, &error) &&
-        (x->shape < 0 ||
-         !lab_unknowns_add(both, x->shape, x->u.unknown[lab_unknowns_find(&x->u, x->shape)].value, &error)) &&
-        !lab_unknowns_fit(both, LAB_ROUNDS_ALL, &chi2, &error))
-      there = chi2 < x->chi2 + lab_constant(LAB_ALIKE_BIC);
-  }
   lab_fail_together(all, &error);
-  if (both && !there && lab_cpu_is_spent(both->until)) {
+  if (!there && lab_cpu_is_spent(c->u.until)) {
     lab_fail(all, LAB_NUMERIC, "no time to ask the old logs");
     there = 1;
   }
   free(both);
   return there;
+}
+
+/* In:  x  fitted, or NULL */
+static int is_change(const lab_sides *c, const extension *x, double level, lab_error *error)
+{
+  return x && lab_chi2_tail(fmax(c->chi2 - x->chi2, 0), x->n_free) < level && !was_there(c, x, error);
 }
 
 /* Refit the leaders, and take up the best of them and of the course.
@@ -201,7 +234,7 @@ static int take_best(lab_sides *c, const lab_scores *scores, double level, exten
                      lab_error *error)
 {
   extension *x = calloc(LAB_CHANGE_LEADERS + 1, sizeof *x), *best;
-  int i, n = 1;
+  int i, n = 1, passes;
   *taken = 0;
   if (!x)
     return lab_fail_memory(error, "changes");
@@ -214,8 +247,13 @@ static int take_best(lab_sides *c, const lab_scores *scores, double level, exten
   for (i = 1; i < n; i++)
     refit(c, &scores->of[i - 1], level, &x[i], error);
   best = choose(x, n);
-  if (error->status == LAB_OK && best && lab_chi2_tail(fmax(c->chi2 - best->chi2, 0), best->n_free) < level &&
-      !was_there(c, best, error)) {
+  passes = error->status == LAB_OK && is_change(c, best, level, error);
+  if (error->status == LAB_NUMERIC && x[0].fitted) { /* a supply that was followed needs no time to try others */
+    error->status = LAB_OK;
+    best = &x[0];
+    passes = is_change(c, best, level, error);
+  }
+  if (passes) {
     c->followed = best->is_course ? c->chi2 - best->chi2 : 0;
     c->n_followed = best->n_free;
     take(c, best, x, n);
@@ -374,6 +412,12 @@ static int conclude(lab_sides *c, int unknown, lab_changes *changes, lab_error *
              "what the model of the baseline leaves of the new log, %.2f times the noise, is more than it leaves of "
              "the baseline, %.2f times, and no change in the list explains it",
              changes->now, changes->then);
+  } else if (!changes->n && lab_rest_spoils_baseline(&left)) {
+    changes->condition = LAB_SINCE_CANNOT_TELL;
+    snprintf(
+        changes->why, sizeof changes->why,
+        "a model of both leaves %.2f times the noise of the baseline, and no change in the list explains the new log",
+        changes->then);
   } else if (!changes->n && unknown) {
     changes->condition = LAB_SINCE_CANNOT_TELL;
     snprintf(changes->why, sizeof changes->why,

@@ -84,16 +84,24 @@ static int set_range(const lab_run *run, int n, double *low, double *high)
   return *low <= *high;
 }
 
-/* Whether the new logs go to set positions where the baseline has not been. The model, fitted elsewhere, is then off by
- * what the plant's forces do there, which comes and goes with the position. */
+/* Whether most of the new logs is at set positions where the baseline has not been. The model, fitted elsewhere, is
+ * then off by what the plant's forces do there, which comes and goes with the position. */
 static int goes_beyond(const lab_sides *c)
 {
   static const double margin = 0.1; /* of the range */
-  double then[2], now[2];
-  if (!set_range(c->run, c->first, &then[0], &then[1]) ||
-      !set_range(c->run + c->first, c->u.n_runs - c->first, &now[0], &now[1]))
+  double low, high, room;
+  size_t i, n = 0, beyond = 0;
+  int e;
+  if (!set_range(c->run, c->first, &low, &high))
     return 0;
-  return now[0] < then[0] - margin * (then[1] - then[0]) || now[1] > then[1] + margin * (then[1] - then[0]);
+  room = margin * (high - low);
+  for (e = c->first; e < c->u.n_runs; e++)
+    for (i = c->run[e].first; lab_log_command(c->run[e].log) == LAB_CHANNEL_SP && i < c->run[e].first + c->run[e].n;
+         i++, n++) {
+      const double set = c->run[e].log->value[LAB_CHANNEL_SP][i];
+      beyond += set < low - room || set > high + room;
+    }
+  return 2 * beyond > n;
 }
 
 /* What is left of one channel of the baseline counts as noise; where it is not white, with its memory from row to row.
@@ -184,7 +192,8 @@ static void drop_instants(lab_unknowns *u)
 }
 
 /* Follow the baseline to first order from here on: it tells its own values, and what is fitted here are the new logs.
- * Where its model lacks something, or sees it coarsely, it is simulated each time, with what was held on it as it is. */
+ * Where its model lacks something, or sees it coarsely, it is simulated each time, with what was held on it as it is.
+ */
 static int follow_to_first_order(lab_sides *c, int decided, lab_error *error)
 {
   if (!decided || c->base.window > 0) {
