@@ -104,9 +104,9 @@ $(BUILD)/packaging/%.o: packaging/%.c
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(DEPS) $(LAB_FLAGS) $(CFLAGS) -c $< -o $@
 
-$(MAN:%=$(READY)/man/%): $(READY)/man/%: packaging/man/%.in packaging/man/fill.awk $(BUILD)/packaging/man/tables
+$(MAN:%=$(READY)/man/%): $(READY)/man/%: packaging/man/%.in packaging/man/fill.awk lib/pneu.h $(BUILD)/packaging/man/tables
 	@mkdir -p $(@D)
-	awk -v TABLES=$(BUILD)/packaging/man/tables -f packaging/man/fill.awk $< > $@
+	awk -v TABLES=$(BUILD)/packaging/man/tables -v HEADER=lib/pneu.h -f packaging/man/fill.awk $< > $@
 
 ## Make the pages of the manual: build/ready/man
 man: $(MAN:%=$(READY)/man/%)
