@@ -36,6 +36,19 @@ static double param(const lab_rig *rig, const char *effect, const char *name)
 
 /* ---- Reading ---- */
 
+static void assert_same(const lab_rig *a, const lab_rig *b)
+{
+  const char *what = rig_difference(a, b);
+  if (what)
+    fail_msg("another %s", what);
+}
+
+static void assert_comes_back(const lab_rig *rig)
+{
+  const lab_rig again = write_and_read(rig, "two lines\nof remark");
+  assert_same(rig, &again);
+}
+
 TEST(test_lab_rig_read__every_parameter__lands_in_si)
 {
   lab_rig rig = read_rig(declared);
@@ -171,19 +184,14 @@ TEST(test_lab_rig_read__effects__are_set_by_name)
   assert_close(param(&rig, "supply_droop", "supply_resistance"), 0, 0, 0);
 }
 
-TEST(test_lab_rig_read__stribeck_law__switches_its_effect_on)
+TEST(test_lab_rig_read__friction_laws__switch_their_effects_on)
 {
   lab_rig rig;
   fixture_need("stribeck_friction");
+  fixture_need("presliding");
   rig = read_rig("laws = { friction = \"stribeck\"; };");
   assert_int_equal(rig.friction, LAB_FRICTION_STRIBECK);
   assert_true(param(&rig, "stribeck_friction", "stribeck_excess") > 0);
-}
-
-TEST(test_lab_rig_read__lugre_law__switches_its_effect_on)
-{
-  lab_rig rig;
-  fixture_need("presliding");
   rig = read_rig("laws = { friction = \"lugre\"; };");
   assert_true(param(&rig, "presliding", "presliding_length") > 0);
 }
@@ -197,16 +205,17 @@ TEST(test_lab_rig_read__effects_before_laws__have_the_last_word)
   assert_close(param(&rig, "stribeck_friction", "stribeck_excess"), 0.125, 0, 0);
 }
 
-TEST(test_lab_rig_read__log_group__becomes_the_format)
+TEST(test_lab_rig_read__log_group__becomes_the_format_and_comes_back)
 {
-  lab_rig rig = read_rig("log = { delimiter = \"tab\"; decimal = \",\"; thousands = \".\"; comment = \"%\";\n"
+  lab_rig rig = read_rig("inputs = [ \"p\", \"x\" ];\n"
+                         "log = { delimiter = \"tab\"; decimal = \",\"; thousands = \"'\"; comment = \"\\\"\";\n"
                          "  skip_lines = 3; columns = ( \"t [ms]\", \"-\", \"p_abs [hPa]\" );\n"
                          "  window = ( \"100 ms\", \"2 s\" ); new_run = \"t drops\"; damaged = \"drop\";\n"
-                         "  scale = { x = -1; }; offset = { T = \"1 degC\"; }; constants = { u = \"50 %\"; }; };");
+                         "  scale = { x = -0.1; }; offset = { T = \"0.1 degC\"; }; constants = { u = \"10 %\"; }; };");
   assert_int_equal(rig.log.delimiter, '\t');
   assert_int_equal(rig.log.decimal, ',');
-  assert_int_equal(rig.log.thousands, '.');
-  assert_int_equal(rig.log.comment, '%');
+  assert_int_equal(rig.log.thousands, '\'');
+  assert_int_equal(rig.log.comment, '"');
   assert_int_equal(rig.log.skip_lines, 3);
   assert_int_equal(rig.log.n_columns, 3);
   assert_string_equal(rig.log.column[2], "p_abs [hPa]");
@@ -214,11 +223,12 @@ TEST(test_lab_rig_read__log_group__becomes_the_format)
   assert_close(rig.log.to, 2, 0, 0);
   assert_int_equal(rig.log.new_run, LAB_RUN_T_DROPS);
   assert_int_equal(rig.log.damaged, LAB_DAMAGED_DROP);
-  assert_close(rig.log.scale[LAB_CHANNEL_X], -1, 0, 0);
+  assert_close(rig.log.scale[LAB_CHANNEL_X], -0.1, 0, 0);
   assert_close(rig.log.scale[LAB_CHANNEL_P], 1, 0, 0);
-  assert_close(rig.log.offset[LAB_CHANNEL_T], 1, 1e-12, 0);
-  assert_close(rig.log.constant[LAB_CHANNEL_U], 0.5, 0, 0);
+  assert_close(rig.log.offset[LAB_CHANNEL_T], 0.1, 1e-12, 0);
+  assert_close(rig.log.constant[LAB_CHANNEL_U], 0.1, 0, 0);
   assert_true(isnan(rig.log.constant[LAB_CHANNEL_P]));
+  assert_comes_back(&rig);
 }
 
 TEST(test_lab_rig_read__shape_of_a_log__is_read_and_written)
@@ -253,13 +263,16 @@ TEST(test_lab_rig_read__shape_of_a_log__is_read_and_written)
   assert_int_equal(rig.log.way_back, LAB_CHANNEL_P);
 }
 
-TEST(test_lab_rig_read__long_log__lists_quantities)
+TEST(test_lab_rig_read__long_log__lists_quantities_and_comes_back)
 {
   lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
                          "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
   assert_int_equal(rig.log.n_quantities, 2);
   assert_string_equal(rig.log.quantity[0].word, "p_bar");
   assert_string_equal(rig.log.quantity[0].column, "p [bar]");
+  assert_comes_back(&rig);
+  rig = read_rig("log = { time_step = \"1 ms\"; };");
+  assert_comes_back(&rig);
 }
 
 TEST(test_lab_rig_read__proportional_band__makes_the_command_a_pressure)
@@ -432,19 +445,6 @@ TEST(test_lab_rig_read__bad_effects__are_refused)
 
 /* ---- Writing ---- */
 
-static void assert_same(const lab_rig *a, const lab_rig *b)
-{
-  const char *what = rig_difference(a, b);
-  if (what)
-    fail_msg("another %s", what);
-}
-
-static void assert_comes_back(const lab_rig *rig)
-{
-  const lab_rig again = write_and_read(rig, "two lines\nof remark");
-  assert_same(rig, &again);
-}
-
 TEST(test_lab_rig_write__declared_rig__comes_back_bit_for_bit)
 {
   lab_rig rig = read_rig(declared);
@@ -561,25 +561,6 @@ TEST(test_lab_rig_write__friction_law_fitted_to_nothing__stays_off)
   again = write_and_read(&rig, NULL);
   assert_close(param(&again, "stribeck_friction", "stribeck_excess"), 0, 0, 0);
   assert_same(&rig, &again);
-}
-
-TEST(test_lab_rig_write__log_group__comes_back)
-{
-  lab_rig rig = read_rig("inputs = [ \"p\", \"x\" ];\n"
-                         "log = { delimiter = \"tab\"; decimal = \",\"; thousands = \"'\"; comment = \"\\\"\";\n"
-                         "  skip_lines = 3; columns = ( \"t [ms]\", \"-\", \"p_abs [hPa]\" );\n"
-                         "  window = ( \"100 ms\", \"2 s\" ); new_run = \"t drops\"; damaged = \"drop\";\n"
-                         "  scale = { x = -0.1; }; offset = { T = \"0.1 degC\"; }; constants = { u = \"10 %\"; }; };");
-  assert_comes_back(&rig);
-}
-
-TEST(test_lab_rig_write__long_log__comes_back)
-{
-  lab_rig rig = read_rig("log = { columns = ( \"quantity\", \"t [s]\", \"value\" );\n"
-                         "  quantities = { p_bar = \"p [bar]\"; wall = \"-\"; }; };");
-  assert_comes_back(&rig);
-  rig = read_rig("log = { time_step = \"1 ms\"; };");
-  assert_comes_back(&rig);
 }
 
 TEST(test_lab_rig_write__all_can_be_fitted__comes_back)
