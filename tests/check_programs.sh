@@ -13,39 +13,27 @@ edit() {
   sed "$1" "$model" >"$folder/bad.cfg"
 }
 
-printf 't [s],u [1],p [kPa],x [mm]\n0,0,0,0\n1,1,0,0\n2,1,100,1\n' >"$folder/good.csv"
 
 # command line
 expect_words 2 "unknown\|unrecognized\|option" "$BUILD/bin/sweep" --nonsense
 expect_words 2 "" "$BUILD/bin/sweep"
-expect_words 2 "" "$BUILD/bin/simulate"
 expect_words 0 "" "$BUILD/bin/sweep" --help
-expect_words 0 "" "$BUILD/bin/simulate" --version
 
 # the world
 expect_words 4 "unit database" env UDUNITS2_XML_PATH=nothere "$BUILD/bin/simulate" "$model" --step
 
 # configuration
 expect_words 1 "nothere.cfg" "$BUILD/bin/sweep" nothere.cfg
-expect_words 1 "nothere.cfg" "$BUILD/bin/simulate" nothere.cfg --step
 : >"$folder/empty.cfg"
 expect_words 1 "empty.cfg" "$BUILD/bin/sweep" "$folder/empty.cfg"
-edit 's/spring_rate/sprung_rate/'
-expect_words 1 "spring_rate" "$BUILD/bin/simulate" "$folder/bad.cfg" --step
 edit 's/400 kN\/m/400 kN/'
 expect_words 1 "bad.cfg:[0-9]*.*spring_rate" "$BUILD/bin/simulate" "$folder/bad.cfg" --step
-edit 's/0.002 dm^3/-0.002 dm^3/'
-expect_words 1 "dead_volume" "$BUILD/bin/simulate" "$folder/bad.cfg" --step
 edit 's/"400 kPa"/"-10 kPa"/'
-expect_words 1 "pressure" "$BUILD/bin/simulate" "$folder/bad.cfg" --step
-edit 's/"400 kPa"/"nan kPa"/'
 expect_words 1 "pressure" "$BUILD/bin/simulate" "$folder/bad.cfg" --step
 sed 's/stroke = "20 mm"/stroke = "0 mm"/' "$model" >"study/actuators/bad-$$.cfg"
 sed "s/r1-400.cfg/bad-$$.cfg/" study/hypotheses.cfg >"study/bad-$$.cfg"
 expect_words 1 "stroke" "$BUILD/bin/sweep" "study/bad-$$.cfg" --no-figures --results "$folder/none"
 rm -f "study/actuators/bad-$$.cfg"
-edit 's/isothermal/isothermic/'
-expect_words 1 "isothermal" "$BUILD/bin/simulate" "$folder/bad.cfg" --step
 sed 's/subject   = "r1-400"/subject = "r2"/' study/hypotheses.cfg >"study/bad-$$.cfg"
 expect_words 1 "r2" "$BUILD/bin/sweep" "study/bad-$$.cfg" --no-figures --results "$folder/none"
 sed 's/points = 28/points = 0/' study/hypotheses.cfg >"study/bad-$$.cfg"
@@ -68,23 +56,18 @@ printf 't [s],u [1],x [mm]\n0,0,20\n1,0,20\n' >"$folder/open.csv"
 printf 'actuator = { stroke = "20 mm"; fail = "open"; };\n' >"$folder/open.cfg"
 expect_words 0 "" "$BUILD/bin/simulate" "$folder/open.cfg" "$folder/open.csv" --out "$folder/open_x.csv"
 grep -q '^1,0,20$' "$folder/open_x.csv" || complain "simulate turns the travel of a valve that air closes: $(cat "$folder/open_x.csv")"
-expect_words 1 "missing.csv" "$BUILD/bin/simulate" "$model" "$folder/missing.csv"
 : >"$folder/empty.csv"
 expect_words 1 "empty" "$BUILD/bin/simulate" "$model" "$folder/empty.csv"
 printf 't [s],u [1],p [kg]\n0,0,0\n1,1,2\n' >"$folder/unit.csv"
 expect_words 1 "unit.csv:1" "$BUILD/bin/simulate" "$model" "$folder/unit.csv"
 printf 't [s],u [1],p [kPa]\n0,0,0\nnan,1,2\n' >"$folder/nan.csv"
 expect_words 1 "nan.csv:3" "$BUILD/bin/simulate" "$model" "$folder/nan.csv"
-printf 't [s],u [1],p [kPa]\n0,0,0\n1,1\n' >"$folder/ragged.csv"
-expect_words 1 "ragged.csv:3" "$BUILD/bin/simulate" "$model" "$folder/ragged.csv"
 head -c 4096 /dev/urandom >"$folder/noise.csv"
 expect_words 1 "noise.csv" "$BUILD/bin/simulate" "$model" "$folder/noise.csv"
 
 # the outside world; root may write anywhere, so a file stands where a folder is needed
 : >"$folder/file"
 expect_words 4 "file" "$BUILD/bin/sweep" hypotheses.cfg --quiet --no-figures --results "$folder/file/results"
-expect_words 4 "file" "$BUILD/bin/simulate" "$model" --step --out "$folder/file/step.csv"
-[ -e /dev/full ] && expect_words 4 "space" "$BUILD/bin/simulate" "$model" --step --out /dev/full
 [ -e /dev/full ] && expect_words 4 "space" sh -c "$BUILD/bin/simulate $model --step >/dev/full"
 
 # what an undisturbed run writes (tests/kill.sh kills it)
