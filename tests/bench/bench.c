@@ -12,19 +12,13 @@ int bench_repeats(const bench *b, int usual)
   return b->quick ? BENCH_FEWEST : usual;
 }
 
-static void say(const char *what, const char *law, const char *who, double error, const bench_spread *time,
-                double ratio)
-{
-  fprintf(stderr, "%-28s %-18s %-10s error %-8.1e %10.4g ms  ratio %.3g\n", what, law, who, error, time->median * 1e3,
-          ratio);
-}
-
 void bench_item(bench *b, const char *item, const char *law, const char *who, double tol, double error,
                 const bench_spread *time, double own)
 {
   table_row(&b->items, "sssggggggg", item, law, who, tol, error, (double)time->n, time->low, time->median, time->high,
             time->median / own);
-  say(item, law, who, error, time, time->median / own);
+  fprintf(stderr, "%-28s %-18s %-10s error %-8.1e %10.4g ms  ratio %.3g\n", item, law, who, error, time->median * 1e3,
+          time->median / own);
 }
 
 void bench_scale(bench *b, const char *task, const char *grows, double value, const bench_spread *time)

@@ -32,13 +32,9 @@ int bench_fits(bench *b, lab_error *error)
   if (bench_fit_open(&fit) || isnan(once(&exact)))
     return lab_fail(error, LAB_NUMERIC, "the rows to fit, or the fit of reference, fail");
   for (k = 0; k < b->n; k++) {
-    const entry now = {&b->contender[k], &fit, b->fit_tol[k], {0}};
-    if (!now.by->fit)
-      continue;
-    e[n] = now;
-    lane[n].run = once;
-    lane[n].context = &e[n];
-    n++;
+    e[n] = (entry){&b->contender[k], &fit, b->fit_tol[k], {0}};
+    lane[n] = (bench_lane){.run = once, .context = &e[n]};
+    n += e[n].by->fit != NULL;
   }
   bench_race(lane, n, bench_repeats(b, 41), budget);
   for (k = 0; k < n; k++) {

@@ -51,10 +51,8 @@ static void draw(bench *b, int law, const bench_case *task, double (*error)[RUNG
   int i, k;
   for (i = 0; i < RUNGS; i += SHOWN) {
     for (k = 0; k < b->n; k++) {
-      const entry now = {&b->contender[k], task, rung(i)};
-      e[k] = now;
-      lane[k].run = once;
-      lane[k].context = &e[k];
+      e[k] = (entry){&b->contender[k], task, rung(i)};
+      lane[k] = (bench_lane){.run = once, .context = &e[k]};
     }
     bench_race(lane, b->n, bench_repeats(b, 21), budget / 10);
     for (k = 0; k < b->n; k++)
@@ -82,13 +80,11 @@ static void compare(bench *b, const bench_case *task, const char *words, double 
   int k, n = 0;
   for (k = 0; k < b->n; k++) {
     const int i = loosest(error[k], most);
-    const entry now = {&b->contender[k], task, i < 0 ? 0 : rung(i)};
     if (i < 0)
       continue;
     reached[n] = error[k][i];
-    e[n] = now;
-    lane[n].run = once;
-    lane[n].context = &e[n];
+    e[n] = (entry){&b->contender[k], task, rung(i)};
+    lane[n] = (bench_lane){.run = once, .context = &e[n]};
     n++;
   }
   bench_race(lane, n, bench_repeats(b, BENCH_REPEATS_MAX), budget);

@@ -26,13 +26,9 @@ static void right_hand_side(bench *b, const bench_case *task)
   bench_lane lane[BENCH_CONTENDERS_MAX];
   int k, n = 0;
   for (k = 0; k < b->n; k++) {
-    const rates_entry now = {&b->contender[k], task};
-    if (!now.by->rates)
-      continue;
-    e[n] = now;
-    lane[n].run = rates;
-    lane[n].context = &e[n];
-    n++;
+    e[n] = (rates_entry){&b->contender[k], task};
+    lane[n] = (bench_lane){.run = rates, .context = &e[n]};
+    n += e[n].by->rates != NULL;
   }
   bench_race(lane, n, bench_repeats(b, 41), budget);
   for (k = 0; k < n; k++)

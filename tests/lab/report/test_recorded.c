@@ -103,7 +103,7 @@ static void write_log(const recorder *r)
   fclose(file);
 }
 
-static void write_rig(const recorder *r)
+static void write_rig(const recorder *r, const char *more)
 {
   char text[1200];
   snprintf(text, sizeof text,
@@ -115,29 +115,34 @@ static void write_rig(const recorder *r)
            "ambient = { pressure = \"%g Pa\"; temperature = \"%g K\"; };\n"
            "laws = { gas = \"isothermal\"; flow = \"choked\"; };\n"
            "fit = (\"orifice_area\", \"dry_friction\", \"spring_rate\", \"spring_preload\");\n"
-           "noise = { pressure = \"%g Pa\"; position = \"%g m\"; };\n",
+           "noise = { pressure = \"%g Pa\"; position = \"%g m\"; };\n%s",
            rig.area, rig.dead_volume, rig.stroke, rig.spring_rate, rig.spring_preload, rig.mass, rig.viscous,
            rig.fill_area, rig.vent_area, rig.supply, rig.supply_temperature, rig.ambient, rig.ambient_temperature,
-           r->declared * r->quiet * noise_p, r->declared * r->quiet * noise_x);
+           r->declared * r->quiet * noise_p, r->declared * r->quiet * noise_x, more);
   scratch_text("rig.cfg", text);
+}
+
+/* The answer to the log and the rig file that were written, to be freed. */
+static lab_answer *find_answer(void)
+{
+  char path[512], rig_path[512];
+  const char *log[] = {path};
+  const lab_request q = {.rig = rig_path, .log = log, .n_logs = 1, .alpha = 0.01, .min_gain = 0.02};
+  lab_answer *answer;
+  strcpy(path, scratch_path("log.csv"));
+  strcpy(rig_path, scratch_path("rig.cfg"));
+  succeed(lab_answer_find(&q, &answer, &error));
+  return answer;
 }
 
 /* The answer to a log of the present truth, to be freed. */
 static lab_answer *answer_to(const recorder *r)
 {
-  char path[512], rig_path[512];
-  const char *log[] = {path};
-  lab_request q = {.rig = rig_path, .log = log, .n_logs = 1, .alpha = 0.01, .min_gain = 0.02};
-  lab_answer *answer;
   check_note("%s", r->name);
   seed = 20;
-  write_rig(r);
+  write_rig(r, "");
   write_log(r);
-  strcpy(path, scratch_path("log.csv"));
-  strcpy(rig_path, scratch_path("rig.cfg"));
-  if (lab_answer_find(&q, &answer, &error))
-    fail_msg("%s: %s", r->name, error.text);
-  return answer;
+  return find_answer();
 }
 
 static const recorder *const recorders[] = {&as_declared, &rounded,  &late,    &stamped, &ten_bits,   &plain_steps,
@@ -220,14 +225,6 @@ TEST(test_lab_answer_find__each_recorder__is_recognised)
 
 /* ---- Opening and set position in one log ---- */
 
-static void append_to(const char *path, const char *text)
-{
-  FILE *file = fopen(path, "a");
-  assert_non_null(file);
-  fputs(text, file);
-  fclose(file);
-}
-
 static const second_positioner loop = {.gain = 14, .dead_band = 0.005, .cutoff_high = 1};
 
 /* A loop whose opening was logged as 0 all the time, or commands beside a set position that was. */
@@ -257,17 +254,11 @@ TEST(test_lab_answer_find__u_and_set_position__what_explains_the_log_drives)
 {
   int is_loop;
   for (is_loop = 0; is_loop < 2; is_loop++) {
-    char path[512], rig_path[512];
-    const char *log[] = {path};
-    lab_request q = {.rig = rig_path, .log = log, .n_logs = 1, .alpha = 0.01, .min_gain = 0.02};
     lab_answer *answer;
     seed = 20;
     write_loop(is_loop);
-    write_rig(&as_declared);
-    strcpy(path, scratch_path("log.csv"));
-    strcpy(rig_path, scratch_path("rig.cfg"));
-    append_to(rig_path, "positioner = { gain = 14; dead_band = \"0.5 %\"; };\n");
-    succeed(lab_answer_find(&q, &answer, &error));
+    write_rig(&as_declared, "positioner = { gain = 14; dead_band = \"0.5 %\"; };\n");
+    answer = find_answer();
     assert_int_equal(answer->now.logs.n_without_u, is_loop);
     assert_int_equal(answer->now.result.verdict, LAB_VERDICT_NONE);
     lab_answer_free(answer);
