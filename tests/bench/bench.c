@@ -34,11 +34,7 @@ static int save(const bench *b, const char *name, const table *t, lab_error *err
   snprintf(path, sizeof path, "%s/%s", b->results, name);
   if (lab_out_open(&out, path, error))
     return error->status;
-  if (table_write(t, out.file, error)) {
-    lab_out_abandon(&out);
-    return error->status;
-  }
-  return lab_out_close(&out, error);
+  return lab_out_end(&out, table_write(t, out.file, error), error);
 }
 
 static int all_parts(bench *b, lab_error *error)

@@ -101,7 +101,7 @@ static int write_list(const char *folder, const char *written, int rigs, int n, 
 {
   char path[PATHS];
   lab_outfile list;
-  int i, done = 0;
+  int i, done = 0, status = LAB_OK;
   snprintf(path, sizeof path, "%s/list.csv", folder);
   if (lab_out_open(&list, path, error))
     return error->status;
@@ -111,11 +111,9 @@ static int write_list(const char *folder, const char *written, int rigs, int n, 
       fprintf(list.file, "log-%05d,log-%05d/rig.cfg,log-%05d/fit.csv,log-%05d/holdout.csv\n", i, i, i, i);
       done++;
     }
-  if (done < n) {
-    lab_out_abandon(&list);
-    return lab_fail(error, LAB_NUMERIC, "only %d of %d rigs can be followed", done / LOGS, rigs);
-  }
-  return lab_out_close(&list, error);
+  if (done < n)
+    status = lab_fail(error, LAB_NUMERIC, "only %d of %d rigs can be followed", done / LOGS, rigs);
+  return lab_out_end(&list, status, error);
 }
 
 /* All rigs, and a few more: one whose events cannot be followed is left out, with its logs. */

@@ -3,11 +3,6 @@
 #include "stats.h"
 #include "summary.h"
 
-static int is(const char *text, const char *word)
-{
-  return strcmp(text, word) == 0;
-}
-
 unsigned blind_mark(int has, unsigned trait)
 {
   return has ? trait : 0;
@@ -33,16 +28,16 @@ enum {
 
 static unsigned traits_of(const blind_record *r)
 {
-  const int nothing = is(r->kind, "nothing"), px = strncmp(r->channels, "px", 2) == 0, above = r->ratio >= 2;
-  return ANY | blind_mark(nothing, NOTHING) | blind_mark(px && is(r->kind, "single"), SINGLE) |
-         blind_mark(px && above && is(r->kind, "single"), SINGLE_ABOVE) |
-         blind_mark(px && above && is(r->kind, "pair"), PAIR_ABOVE) |
-         blind_mark(px && above && is(r->kind, "unlisted"), UNLISTED_ABOVE) |
-         blind_mark(is(r->channels, "x") && !nothing && above, X_ABOVE) |
-         blind_mark(is(r->channels, "p") && !nothing && above, P_ABOVE) | blind_mark(r->detected, DETECTED) |
+  const int nothing = blind_is(r->kind, "nothing"), px = strncmp(r->channels, "px", 2) == 0, above = r->ratio >= 2;
+  return ANY | blind_mark(nothing, NOTHING) | blind_mark(px && blind_is(r->kind, "single"), SINGLE) |
+         blind_mark(px && above && blind_is(r->kind, "single"), SINGLE_ABOVE) |
+         blind_mark(px && above && blind_is(r->kind, "pair"), PAIR_ABOVE) |
+         blind_mark(px && above && blind_is(r->kind, "unlisted"), UNLISTED_ABOVE) |
+         blind_mark(blind_is(r->channels, "x") && !nothing && above, X_ABOVE) |
+         blind_mark(blind_is(r->channels, "p") && !nothing && above, P_ABOVE) | blind_mark(r->detected, DETECTED) |
          blind_mark(r->name, NAME) | blind_mark(r->stated, STATED) | blind_mark(r->family, FAMILY) |
-         blind_mark(is(r->verdict, "undecided"), UNDECIDED) |
-         blind_mark(is(r->verdict, "timeout") || is(r->verdict, "failed"), NO_ANSWER);
+         blind_mark(blind_is(r->verdict, "undecided"), UNDECIDED) |
+         blind_mark(blind_is(r->verdict, "timeout") || blind_is(r->verdict, "failed"), NO_ANSWER);
 }
 
 static const blind_bar bars[] = {

@@ -212,11 +212,7 @@ static int write_md(const blind_journal *j, lab_error *error)
     return error->status;
   failed = series->recorded ? blind_recorded_summary_write(file.file, j->record, j->n, (uint64_t)seed, timeout)
                             : blind_summary_write(file.file, j->record, j->n, (uint64_t)seed, series->what);
-  if (failed) {
-    lab_out_abandon(&file);
-    return lab_fail_memory(error, "the summary");
-  }
-  return lab_out_close(&file, error);
+  return lab_out_end(&file, failed ? lab_fail_memory(error, "the summary") : LAB_OK, error);
 }
 
 /* A line for each bar.  Returns: how many are refuted */

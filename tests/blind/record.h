@@ -4,9 +4,15 @@
 #define BLIND_RECORD_H
 
 #include <stdio.h>
+#include <string.h>
 
 #include "ask.h"
 #include "draw.h"
+
+static inline int blind_is(const char *text, const char *word)
+{
+  return strcmp(text, word) == 0;
+}
 
 /* No text holds a comma; lists are joined with "+". */
 typedef struct blind_record {

@@ -13,11 +13,6 @@ const char *blind_class_text(int class)
   return text[class];
 }
 
-static int same(const char *a, const char *b)
-{
-  return strcmp(a, b) == 0;
-}
-
 /* ---- What is missing ---- */
 
 /* Size over information limit. */
@@ -34,7 +29,8 @@ static int is_visible(const blind_visible *v, int effect)
 /* What a sensor's filter may be called. */
 static int is_filter(const blind_recorded *r, const blind_found *f)
 {
-  return (same(f->effect, "pressure_lag") && r->filter[0] > 0) || (same(f->effect, "position_lag") && r->filter[1] > 0);
+  return (blind_is(f->effect, "pressure_lag") && r->filter[0] > 0) ||
+         (blind_is(f->effect, "position_lag") && r->filter[1] > 0);
 }
 
 /* An error of an instrument is as well told among the deviations, where 0 is declared. */
@@ -42,7 +38,7 @@ static int is_deviation(const blind_answer *a, const char *effect, double size)
 {
   int k, any = 0;
   for (k = 0; k < a->n_deviations; k++)
-    any |= same(a->deviation[k].parameter, effect) && a->deviation[k].ratio * size > 0;
+    any |= blind_is(a->deviation[k].parameter, effect) && a->deviation[k].ratio * size > 0;
   return any;
 }
 
@@ -77,7 +73,7 @@ static int class_of_unlisted(const blind_trial *t, const blind_visible *v, const
 {
   int i, class = t->n_missing == 0 ? BLIND_FALSE_ALARM : BLIND_WRONG;
   for (i = 0; i < t->n_missing; i++)
-    if (a->n_unlisted > 0 && same(a->unlisted[0], t->missing[i].effect->equation)) {
+    if (a->n_unlisted > 0 && blind_is(a->unlisted[0], t->missing[i].effect->equation)) {
       if (t->kind == BLIND_UNLISTED)
         class = BLIND_RIGHT;
       else if (is_visible(v, i))
@@ -88,11 +84,11 @@ static int class_of_unlisted(const blind_trial *t, const blind_visible *v, const
 
 static int class_of(const blind_recorded *r, const blind_visible *v, const blind_answer *a, const tally *n)
 {
-  if (same(a->verdict, "timeout") || same(a->verdict, "failed"))
+  if (blind_is(a->verdict, "timeout") || blind_is(a->verdict, "failed"))
     return BLIND_NO_ANSWER;
-  if (same(a->verdict, "undecided"))
+  if (blind_is(a->verdict, "undecided"))
     return BLIND_UNDECIDED;
-  if (same(a->verdict, "unlisted"))
+  if (blind_is(a->verdict, "unlisted"))
     return class_of_unlisted(&r->t, v, a);
   if (n->false_names == 0 && n->open == 0)
     return BLIND_RIGHT;
@@ -111,14 +107,15 @@ double blind_true_ratio(const blind_recorded *r, int value)
   const double rest = 1.0 / 3; /* of the viscous term, which is declared apart from damping */
   if (blind_values[value].absolute)
     return (declared + off) / declared;
-  return same(blind_values[value].name, "damping") ? (off - rest) / (1 - rest) : off;
+  return blind_is(blind_values[value].name, "damping") ? (off - rest) / (1 - rest) : off;
 }
 
 /* A restriction is one value here, and one or two there. */
 static int is_of(const blind_deviation *d, int value)
 {
-  const int orifice = same(d->parameter, "fill_area") || same(d->parameter, "vent_area");
-  return same(d->parameter, blind_values[value].name) || (orifice && same(blind_values[value].name, "orifice_area"));
+  const int orifice = blind_is(d->parameter, "fill_area") || blind_is(d->parameter, "vent_area");
+  return blind_is(d->parameter, blind_values[value].name) ||
+         (orifice && blind_is(blind_values[value].name, "orifice_area"));
 }
 
 /* The share by which the vent passes less than the fill orifice, beside what is declared of both. */
@@ -130,7 +127,7 @@ static double true_restriction(const blind_recorded *r)
 
 static int is_restriction(const blind_deviation *d)
 {
-  return same(d->parameter, "vent_restriction");
+  return blind_is(d->parameter, "vent_restriction");
 }
 
 /* NaN of what is not judged, say of a sensor. */
@@ -182,7 +179,7 @@ static void count_vent_due(const blind_recorded *r, const blind_visible *v, cons
   const double restriction = true_restriction(r);
   int i, k, found = 0;
   for (i = 0; i < r->t.n_missing; i++)
-    if (same(r->t.missing[i].effect->name, "vent_restriction"))
+    if (blind_is(r->t.missing[i].effect->name, "vent_restriction"))
       return;
   if (!(v->vent >= BLIND_DUE))
     return;

@@ -3,18 +3,12 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "recorded_score.h"
 
-static int is(const char *text, const char *word)
-{
-  return strcmp(text, word) == 0;
-}
-
 static int class_is(const blind_record *r, int class)
 {
-  return is(r->class, blind_class_text(class));
+  return blind_is(r->class, blind_class_text(class));
 }
 
 static int has_word(const char *words, const char *word)
@@ -51,7 +45,7 @@ enum {
 
 static unsigned traits_of(const blind_record *r)
 {
-  unsigned traits = ANY | blind_mark(is(r->kind, "nothing"), NOTHING) | blind_mark(r->ratio >= 2, VISIBLE) |
+  unsigned traits = ANY | blind_mark(blind_is(r->kind, "nothing"), NOTHING) | blind_mark(r->ratio >= 2, VISIBLE) |
                     blind_mark(r->far_due, FAR_DUE) | blind_mark(r->far_found, FAR_FOUND) |
                     blind_mark(r->onset_due, ONSET_DUE) | blind_mark(r->onset_within, ONSET_WITHIN) |
                     blind_mark(r->onset_said, ONSET_SAID) | blind_mark(isnan(r->onset), FROM_START) |
@@ -129,17 +123,17 @@ static int of_imperfection(const blind_record *r, const char *word)
 
 static int of_log(const blind_record *r, const char *word)
 {
-  return is(r->log, word);
+  return blind_is(r->log, word);
 }
 
 static int of_effect(const blind_record *r, const char *word)
 {
-  return *word ? is(r->effect[0], word) || is(r->effect[1], word) : is(r->kind, "nothing");
+  return *word ? blind_is(r->effect[0], word) || blind_is(r->effect[1], word) : blind_is(r->kind, "nothing");
 }
 
 static int of_beyond(const blind_record *r, const char *word)
 {
-  return is(r->beyond, word);
+  return blind_is(r->beyond, word);
 }
 
 static int of_rate(const blind_record *r, const char *word)
@@ -232,7 +226,7 @@ static void write_truth(FILE *file, const blind_record *r)
 static void write_said(FILE *file, const blind_record *r)
 {
   fprintf(file, "%s%s%s", r->verdict, *r->found ? ": " : "", r->found);
-  if (is(r->verdict, "unlisted"))
+  if (blind_is(r->verdict, "unlisted"))
     fprintf(file, " in %s", r->equation);
   if (*r->since)
     fprintf(file, " since %s", r->since);
@@ -250,7 +244,8 @@ void blind_recorded_misses(FILE *file, const blind_record *record, int n)
     const blind_record *r = &record[i];
     if (!is_miss(r))
       continue;
-    fprintf(file, "| %d | %s, %.3g | %s | ", r->trial, is(r->log, "open") ? r->channels : r->log, r->rate, r->class);
+    fprintf(file, "| %d | %s, %.3g | %s | ", r->trial, blind_is(r->log, "open") ? r->channels : r->log, r->rate,
+            r->class);
     write_truth(file, r);
     fputs(" | ", file);
     write_said(file, r);

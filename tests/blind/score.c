@@ -10,16 +10,11 @@
 
 enum level { NAME, STATED, FAMILY };
 
-static int same(const char *a, const char *b)
-{
-  return strcmp(a, b) == 0;
-}
-
 static int is_among(const blind_word *word, int n, const char *name)
 {
   int i;
   for (i = 0; i < n; i++)
-    if (same(word[i], name))
+    if (blind_is(word[i], name))
       return 1;
   return 0;
 }
@@ -28,11 +23,11 @@ static int is_among(const blind_word *word, int n, const char *name)
 static int stands_for(const blind_found *f, const blind_effect *e, enum level level)
 {
   const blind_effect *other = blind_effect_named(f->effect);
-  if (same(f->effect, e->name))
+  if (blind_is(f->effect, e->name))
     return 1;
   if (level >= STATED && is_among(f->alike, f->n_alike, e->name))
     return 1;
-  return level == FAMILY && other && same(other->family, e->family);
+  return level == FAMILY && other && blind_is(other->family, e->family);
 }
 
 int blind_stands_for(const blind_found *found, const blind_effect *effect)
@@ -50,7 +45,7 @@ static int is_listed(const blind_answer *a, const char *name)
 static int names_right(const blind_trial *t, const blind_answer *a, enum level level)
 {
   int turn, i, k;
-  if (!same(a->verdict, a->n_found ? "effect" : "none") || a->n_found > t->n_missing)
+  if (!blind_is(a->verdict, a->n_found ? "effect" : "none") || a->n_found > t->n_missing)
     return 0;
   for (turn = 0; turn < t->n_missing; turn++) {
     int right = 1, n = 0;
@@ -77,7 +72,8 @@ static int any_listed(const blind_trial *t, const blind_answer *a)
 
 static int equation_right(const blind_trial *t, const blind_answer *a)
 {
-  return same(a->verdict, "unlisted") && a->n_unlisted > 0 && same(a->unlisted[0], t->missing[0].effect->equation);
+  return blind_is(a->verdict, "unlisted") && a->n_unlisted > 0 &&
+         blind_is(a->unlisted[0], t->missing[0].effect->equation);
 }
 
 int blind_is_small(const blind_answer *a, const blind_effect *e)
@@ -90,13 +86,13 @@ int blind_is_small(const blind_answer *a, const blind_effect *e)
 /* Whether something without a name, in the right equation, is listed as significant but too small to be added. */
 static int equation_listed(const blind_trial *t, const blind_answer *a)
 {
-  return same(a->verdict, "none") && blind_is_small(a, t->missing[0].effect);
+  return blind_is(a->verdict, "none") && blind_is_small(a, t->missing[0].effect);
 }
 
 static int right(const blind_trial *t, const blind_answer *a, enum level level)
 {
   if (t->kind == BLIND_NOTHING)
-    return same(a->verdict, "none");
+    return blind_is(a->verdict, "none");
   if (t->kind == BLIND_UNLISTED)
     return equation_right(t, a) || (level >= STATED && equation_listed(t, a));
   return names_right(t, a, level);
@@ -165,9 +161,9 @@ static void note_own(const blind_trial *t, const blind_answer *a, blind_record *
   for (i = 0; t->n_missing && i < a->n_candidates; i++) {
     int seen = 0;
     for (k = 0; k < i; k++)
-      seen |= same(a->candidate[k], a->candidate[i]);
+      seen |= blind_is(a->candidate[k], a->candidate[i]);
     rank += !seen;
-    if (!same(a->candidate[i], t->missing[0].effect->name))
+    if (!blind_is(a->candidate[i], t->missing[0].effect->name))
       continue;
     r->own_statistic = a->statistic[i];
     r->own_rank = rank;
@@ -181,7 +177,7 @@ static int has_found(const blind_answer *a, const char *name)
 {
   int i;
   for (i = 0; i < a->n_found; i++)
-    if (same(a->found[i].effect, name))
+    if (blind_is(a->found[i].effect, name))
       return 1;
   return 0;
 }
@@ -225,7 +221,7 @@ static void explain(const blind_trial *t, const blind_answer *a, blind_record *r
 {
   if (r->name)
     return;
-  if (*a->words || same(a->verdict, "timeout") || same(a->verdict, "failed")) {
+  if (*a->words || blind_is(a->verdict, "timeout") || blind_is(a->verdict, "failed")) {
     append(r->why, "%s", *a->words ? a->words : "no answer in the time allowed");
     return;
   }
@@ -235,7 +231,7 @@ static void explain(const blind_trial *t, const blind_answer *a, blind_record *r
   }
   if (r->ratio < 2)
     append(r->why, "below %sthe information limit; ", r->ratio < 1 ? "" : "twice ");
-  if (same(a->verdict, "unlisted") && t->kind == BLIND_UNLISTED)
+  if (blind_is(a->verdict, "unlisted") && t->kind == BLIND_UNLISTED)
     append(r->why, "wrong equation");
   else if (r->stated && (t->kind == BLIND_UNLISTED || any_listed(t, a)))
     append(r->why, "listed as significant but too small to be added");
@@ -251,7 +247,7 @@ void blind_score(const blind_trial *t, const double *limit, const blind_answer *
   note_question(t, limit, r);
   note_answer(a, r);
   note_own(t, a, r);
-  r->detected = same(a->verdict, "effect") || same(a->verdict, "unlisted") || same(a->verdict, "undecided");
+  r->detected = blind_is(a->verdict, "effect") || blind_is(a->verdict, "unlisted") || blind_is(a->verdict, "undecided");
   r->name = right(t, a, NAME);
   r->stated = right(t, a, STATED);
   r->family = right(t, a, FAMILY);

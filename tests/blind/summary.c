@@ -3,14 +3,8 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* ---- Small parts ---- */
-
-static int is(const char *text, const char *word)
-{
-  return strcmp(text, word) == 0;
-}
 
 static int is_pressure_and_position(const blind_record *r)
 {
@@ -84,8 +78,8 @@ static void write_totals(FILE *file, const blind_record *record, int n)
 /* Trials with one and the same effect missing, by its name and unit; of listed ones with p and x. */
 static int is_row(const blind_record *r, const blind_effect *e)
 {
-  const int kind = blind_is_listed(e) ? is(r->kind, "single") : is(r->kind, "unlisted");
-  return kind && is_pressure_and_position(r) && is(r->effect[0], e->name) && is(r->unit[0], e->unit);
+  const int kind = blind_is_listed(e) ? blind_is(r->kind, "single") : blind_is(r->kind, "unlisted");
+  return kind && is_pressure_and_position(r) && blind_is(r->effect[0], e->name) && blind_is(r->unit[0], e->unit);
 }
 
 typedef struct tally {
@@ -201,7 +195,7 @@ static void write_sizes(FILE *file, const blind_record *record, int n)
     blind_count c[4] = {{0, 0}};
     char title[32], text[4][32];
     for (i = 0; i < n; i++)
-      if (is(record[i].kind, "single") && is_pressure_and_position(&record[i]) && bin_of(record[i].ratio) == b) {
+      if (blind_is(record[i].kind, "single") && is_pressure_and_position(&record[i]) && bin_of(record[i].ratio) == b) {
         add(&c[0], record[i].detected);
         add(&c[1], record[i].name);
         add(&c[2], record[i].stated);
@@ -260,7 +254,7 @@ static void write_miss(FILE *file, const blind_record *r)
   fprintf(file, "| %d | %s | ", r->trial, r->channels);
   write_truth(file, r);
   fprintf(file, " | %s%s%s%s%s | %s | %s |\n", r->verdict, *r->found ? ": " : "", r->found,
-          is(r->verdict, "unlisted") ? " in " : "", is(r->verdict, "unlisted") ? r->equation : "",
+          blind_is(r->verdict, "unlisted") ? " in " : "", blind_is(r->verdict, "unlisted") ? r->equation : "",
           number_text(r->holdout_after, text), r->why);
 }
 
@@ -284,12 +278,12 @@ static void write_list(FILE *file, const char *title, const blind_record *record
 
 static int is_false_alarm(const blind_record *r)
 {
-  return is(r->kind, "nothing") && !r->name;
+  return blind_is(r->kind, "nothing") && !r->name;
 }
 
 static int is_miss_above(const blind_record *r)
 {
-  return !is(r->kind, "nothing") && r->ratio >= 2 && !r->stated;
+  return !blind_is(r->kind, "nothing") && r->ratio >= 2 && !r->stated;
 }
 
 static int is_stated_only(const blind_record *r)
@@ -299,7 +293,7 @@ static int is_stated_only(const blind_record *r)
 
 static int is_miss_below(const blind_record *r)
 {
-  return !is(r->kind, "nothing") && !(r->ratio >= 2) && !r->stated;
+  return !blind_is(r->kind, "nothing") && !(r->ratio >= 2) && !r->stated;
 }
 
 /* ---- The whole ---- */
