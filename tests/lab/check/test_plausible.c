@@ -227,14 +227,6 @@ CASE(test_lab_plausible_content__one_still_run_of_two__passes)
   assert_int_equal(content.still, 1);
 }
 
-CASE(test_lab_plausible_content__nothing_but_still_runs__is_refused)
-{
-  bad_log b = sound;
-  b.n = 40;
-  read_log(&b);
-  assert_judged_wrong("nothing moves");
-}
-
 /* ---- Checks that the processes do not reach ---- */
 
 CASE(test_lab_plausible__temperature_in_other_degrees__is_refused)
