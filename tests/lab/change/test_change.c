@@ -279,13 +279,16 @@ static second_rig plant_rig(uint64_t seed)
   return g;
 }
 
-static void compare_plant(const second_rig *early, const second_rig *late, double from, double gain)
+static const second_positioner positioner = {.gain = 10, .dead_band = 0.005, .cutoff_high = 2};
+
+/* In:  now   the positioner of the new log
+ *      peak  the new log's highest set position, once; the baseline goes to 0.79 */
+static void compare_plant(const second_rig *early, const second_rig *late, double from, const second_positioner *now,
+                          double peak)
 {
-  static const second_positioner positioner = {.gain = 10, .cutoff_high = 2};
   static double t_set[PLANT_COMMANDS], set[PLANT_COMMANDS];
   const char *const path[2] = {scratch_path("then.csv"), scratch_path("now.csv")};
   const second_rig then = plant_rig(7);
-  second_positioner now_positioner = positioner;
   second_course course = {t_set, set, PLANT_COMMANDS, &positioner, NULL, 0};
   int i;
   for (i = 0; i < PLANT_COMMANDS; i++) {
@@ -296,12 +299,13 @@ static void compare_plant(const second_rig *early, const second_rig *late, doubl
   rig.noise[LAB_CHANNEL_X] = 1e-4;
   rig.n_fit = 0;
   rig.fit[rig.n_fit++] = LAB_PARAM_ORIFICE_AREA;
-  *pneu_param_at(&rig.params, lab_param_index("positioner.gain")) = 10;
+  *pneu_param_at(&rig.params, lab_param_index("positioner.gain")) = (pneu_real)positioner.gain;
+  *pneu_param_at(&rig.params, lab_param_index("positioner.dead_band")) = (pneu_real)positioner.dead_band;
   write_course(&then, &course, PLANT_ROWS - 1, 1, path[0]);
-  now_positioner.gain = gain;
-  course.positioner = &now_positioner;
+  course.positioner = now;
   course.later = late;
   course.change = from;
+  set[1] = fmax(set[1], peak);
   write_course(early, &course, PLANT_ROWS - 1, 1, path[1]);
   compare_logs(path);
 }
@@ -311,7 +315,7 @@ TEST(test_lab_changes_find__supply_that_comes_back__has_the_time)
 {
   second_rig now = plant_rig(8), fails = now;
   fails.supply = 30e3;
-  compare_plant(&fails, &now, 47.3, 10);
+  compare_plant(&fails, &now, 47.3, &positioner, 0);
   assert_int_equal(changes.condition, LAB_SINCE_CHANGED);
   assert_change("supply_pressure", 30e3);
   assert_false(changes.change[0].begin.known);
@@ -323,7 +327,7 @@ TEST(test_lab_changes_find__supply_that_fails_on_the_way__has_its_onset)
 {
   second_rig now = plant_rig(8), fails = now;
   fails.supply = 60e3;
-  compare_plant(&now, &fails, 80.6, 10);
+  compare_plant(&now, &fails, 80.6, &positioner, 0);
   assert_change("supply_pressure", 60e3);
   assert_since(&changes.change[0].begin, 80.6, 3);
   assert_false(changes.change[0].end.known);
@@ -334,15 +338,27 @@ TEST(test_lab_changes_find__plant_as_ever__is_unchanged)
   second_rig now = plant_rig(8);
   now.supply *= 1.02;
   now.position_bias = 5e-5;
-  compare_plant(&now, NULL, 0, 10);
+  compare_plant(&now, NULL, 0, &positioner, 0);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
 }
 
 TEST(test_lab_changes_find__half_the_gain__is_the_change)
 {
   const second_rig now = plant_rig(8);
-  compare_plant(&now, NULL, 0, 5);
+  second_positioner tired = positioner;
+  tired.gain = 5;
+  compare_plant(&now, NULL, 0, &tired, 0);
   assert_change("positioner.gain", 5);
+}
+
+/* A model may be off where it was not fitted; one row there is no reason to see less in the others. */
+TEST(test_lab_changes_find__one_set_position_beyond_the_baseline__hides_nothing)
+{
+  const second_rig now = plant_rig(8);
+  second_positioner worn = positioner;
+  worn.dead_band = 0.01;
+  compare_plant(&now, NULL, 0, &worn, 0.95);
+  assert_change("positioner_dead_band", 0.005);
 }
 
 /* Something that no parameter has: it can be told neither that all is well nor what is not. */
