@@ -461,13 +461,21 @@ static int take_all(lab_sides *c, double alpha, extension *course, lab_changes *
   return LAB_OK;
 }
 
+/* Whether anything may have changed: what a model lacks that does not explain the baseline, any change takes off a
+ * little of, so that of the new logs such a model has to leave more. */
+static int may_have_changed(const lab_sides *c, lab_error *error)
+{
+  lab_rest left;
+  return c->decided || lab_sides_rest_of_all(c, &c->u, c->run, &left, error) || lab_rest_is_more_than_noise(&left);
+}
+
 static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *error)
 {
   extension *course = malloc(sizeof *course);
   int unknown = 0, status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
   if (status == LAB_OK)
     status = lab_sides_approach(&c->u, &c->chi2, error);
-  if (status == LAB_OK || (status == LAB_NUMERIC && course->fitted))
+  if ((status == LAB_OK && (course->fitted || may_have_changed(c, error))) || (status == LAB_NUMERIC && course->fitted))
     status = take_all(c, alpha, course, changes, error);
   free(course);
   if (status != LAB_OK)

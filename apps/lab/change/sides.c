@@ -106,7 +106,7 @@ static int goes_beyond(const lab_sides *c)
 
 /* What is left of one channel of the baseline counts as noise; where it is not white, with its memory from row to row.
  * A new log, which may stand still, has no less noise than the baseline. */
-static void take_as_noise(const lab_unknowns *then, const double *z, int channel, int decided, lab_sides *c)
+static void take_as_noise(const lab_unknowns *then, const double *z, int channel, lab_sides *c)
 {
   static const double wanders = 0.95; /* memory from row to row of what a model leaves where it was not fitted */
   const double least = noise_of(then->run, then->n_runs, channel);
@@ -130,8 +130,8 @@ static void take_as_noise(const lab_unknowns *then, const double *z, int channel
       if (c->run[e].channel[k] == channel) {
         if (e >= c->first)
           c->run[e].sigma[k] = fmax(c->run[e].sigma[k], least);
-        c->run[e].sigma[k] *= decided ? fmax(scale, 1) : scale;
-        if (!decided)
+        c->run[e].sigma[k] *= c->decided ? fmax(scale, 1) : scale;
+        if (!c->decided)
           c->run[e].colour[k] = (lab_colour){memory, 1};
         c->white[e].sigma[k] = c->run[e].sigma[k];
         c->white[e].colour[k] = (lab_colour){0, 0};
@@ -142,12 +142,12 @@ static void take_as_noise(const lab_unknowns *then, const double *z, int channel
       }
 }
 
-static int take_rest_as_noise(const lab_unknowns *then, int decided, lab_sides *c, lab_error *error)
+static int take_rest_as_noise(const lab_unknowns *then, lab_sides *c, lab_error *error)
 {
   double *z = malloc((then->n_rows + 1) * sizeof *z);
   int k, status = z ? lab_unknowns_errors(then, z, error) : lab_fail_memory(error, "residuals");
   for (k = 0; k < LAB_CHANNEL_COUNT && status == LAB_OK; k++)
-    take_as_noise(then, z, k, decided, c);
+    take_as_noise(then, z, k, c);
   free(z);
   return status;
 }
@@ -194,9 +194,9 @@ static void drop_instants(lab_unknowns *u)
 /* Follow the baseline to first order from here on: it tells its own values, and what is fitted here are the new logs.
  * Where its model lacks something, or sees it coarsely, it is simulated each time, with what was held on it as it is.
  */
-static int follow_to_first_order(lab_sides *c, int decided, lab_error *error)
+static int follow_to_first_order(lab_sides *c, lab_error *error)
 {
-  if (!decided || c->base.window > 0) {
+  if (!c->decided || c->base.window > 0) {
     lab_unknowns_settle(&c->u, NULL);
     return LAB_OK;
   }
@@ -231,12 +231,13 @@ int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, in
   memcpy(c->white, c->run, sizeof c->white);
   c->u = c->base = *then;
   c->first = then->n_runs;
+  c->decided = decided;
   c->row = longest_row(c->run, then->n_runs + n_now);
-  if (follow_to_first_order(c, decided, error))
+  if (follow_to_first_order(c, error))
     return error->status;
   if (lab_unknowns_join(&c->u, c->run, then->n_runs + n_now, error) || add_repeats(c, error))
     return error->status;
-  if (take_rest_as_noise(then, decided, c, error))
+  if (take_rest_as_noise(then, c, error))
     return error->status;
   c->u.m = c->u.n_data + (size_t)c->u.n;
   c->then = c->u;

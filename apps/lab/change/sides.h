@@ -15,6 +15,7 @@ typedef struct lab_sides {
   lab_run run[LAB_FIT_MAX];   /* of both sides: views, whose noise may differ from that of the logs */
   lab_run white[LAB_FIT_MAX]; /* the same with noise that has no memory */
   int first;                  /* run of the new logs */
+  int decided;                /* whether the model explains the baseline */
   double row;                 /* [s] from row to row, the longest mean of a run */
   double chi2;
   int n;

@@ -119,8 +119,13 @@ static void put_changes(const lab_changes *changes, cJSON *page)
   lab_json_put(page, "has_changes", "%s", changes->n ? "yes" : "");
   list = cJSON_AddArrayToObject(page, "changes");
   remarks = cJSON_AddArrayToObject(page, "change_remarks");
-  if (changes->condition == LAB_SINCE_UNCHANGED)
+  if (changes->condition == LAB_SINCE_UNCHANGED && changes->tests)
     lab_json_say(remarks, "Nothing has changed: %d differences were tried, and none passes.", changes->tests);
+  else if (changes->condition == LAB_SINCE_UNCHANGED)
+    lab_json_say(remarks,
+                 "Nothing has changed: what the model leaves of the new log, %.2f times the noise, it leaves of "
+                 "the baseline too, %.2f times.",
+                 changes->now, changes->then);
   for (i = 0; i < changes->n; i++) {
     put_change(&changes->change[i], list);
     say_more(&changes->change[i], remarks);
