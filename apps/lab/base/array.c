@@ -61,7 +61,7 @@ static void take_share(double *restrict v, const double *restrict b, size_t n, d
     v[i] -= share * b[i];
 }
 
-/* Once. */
+/* Take the span of orthonormal columns out of v, as far as that can be done at once. */
 static void take_out(const double *basis, int columns, size_t stride, size_t n, double *v)
 {
   int j, k;
