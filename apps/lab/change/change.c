@@ -89,9 +89,8 @@ static void refit(const lab_sides *c, const lab_score *score, double level, exte
   x->u = c->u;
   if (refit_from(c, score, score->size, level, x, all) && c->chi2 - x->chi2 > kept * score->statistic)
     return;
-  again = malloc(sizeof *again);
+  again = calloc(1, sizeof *again);
   if (again) {
-    *again = *x;
     again->u = c->u;
     if (!x->fitted && c->u.linear)
       unbend(c, &again->u);
@@ -466,7 +465,7 @@ static int take_all(lab_sides *c, double alpha, extension *course, lab_changes *
 static int may_have_changed(const lab_sides *c, lab_error *error)
 {
   lab_rest left;
-  return c->decided || lab_sides_rest_of_all(c, &c->u, c->run, &left, error) || lab_rest_is_more_than_noise(&left);
+  return c->decided || lab_sides_rest(&c->u, c->first, &left, error) || lab_rest_is_more_than_noise(&left);
 }
 
 static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *error)

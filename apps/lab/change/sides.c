@@ -84,8 +84,8 @@ static int set_range(const lab_run *run, int n, double *low, double *high)
   return *low <= *high;
 }
 
-/* Whether most of the new logs is at set positions where the baseline has not been. The model, fitted elsewhere, is
- * then off by what the plant's forces do there, which comes and goes with the position. */
+/* Whether most of the new logs, half by judgement, is at set positions where the baseline has not been. The model,
+ * fitted elsewhere, is then off by what the plant's forces do there, which comes and goes with the position. */
 static int goes_beyond(const lab_sides *c)
 {
   static const double margin = 0.1; /* of the range */

@@ -122,10 +122,11 @@ static void put_changes(const lab_changes *changes, cJSON *page)
   if (changes->condition == LAB_SINCE_UNCHANGED && changes->tests)
     lab_json_say(remarks, "Nothing has changed: %d differences were tried, and none passes.", changes->tests);
   else if (changes->condition == LAB_SINCE_UNCHANGED)
-    lab_json_say(remarks,
-                 "Nothing has changed: what the model leaves of the new log, %.2f times the noise, it leaves of "
-                 "the baseline too, %.2f times.",
-                 changes->now, changes->then);
+    lab_json_say(
+        remarks,
+        "The model explains neither side, but it leaves no more of the new log, %.2f times what counts as noise, "
+        "than of the baseline, %.2f times: no difference was tried.",
+        changes->now, changes->then);
   for (i = 0; i < changes->n; i++) {
     put_change(&changes->change[i], list);
     say_more(&changes->change[i], remarks);
