@@ -23,6 +23,7 @@
 #define PNEU_FORCE_RESOLVED    PNEU_C(1e-4)
 #define PNEU_VELOCITY_RESOLVED PNEU_C(1e-6)
 #define PNEU_ON_STOP           PNEU_C(0.02)
+#define PNEU_ON_EDGE           PNEU_C(1e-5)
 #else
 #define PNEU_C(literal)        literal
 #define PNEU_M(function)       function
@@ -32,6 +33,7 @@
 #define PNEU_FORCE_RESOLVED    1e-7
 #define PNEU_VELOCITY_RESOLVED 1e-10
 #define PNEU_ON_STOP           1
+#define PNEU_ON_EDGE           1e-6
 #endif
 
 /* PNEU_EVENT_TIME [s]: exactness of an event. Shares of the largest force: PNEU_FORCE_NOISE, rounding, which break-away
@@ -39,7 +41,8 @@
  * chatter where it stops in equilibrium. PNEU_VELOCITY_RESOLVED, share of full scale at which a stem on bristles turns
  * round: without it, it would do so for ever where it comes to rest. PNEU_ON_STOP, share of stroke over the compliance
  * of a stop that yields which counts as such a force: enough for the rounding of the position; all of it would, in
- * single, hold a stem by 2 kN. */
+ * single, hold a stem by 2 kN. PNEU_ON_EDGE, share of stroke by which a stem may be beyond the edge of a dead band that
+ * it has met and keep its side. */
 
 /* The record of each effect of the catalogue, in lib/effects/, and its sentence, a symbol of its own that a linker
  * leaves out where nothing asks for it (-fdata-sections and --gc-sections, or -flto). */
@@ -55,7 +58,6 @@
 /* Order in which an evaluation adds its terms. */
 enum pneu_stage {
   PNEU_STAGE_GEOMETRY,   /* area, volume */
-  PNEU_STAGE_FEEDBACK,   /* what a positioner sees of the stem */
   PNEU_STAGE_POSITIONER, /* opening asked for, from a set position */
   PNEU_STAGE_COMMAND,    /* opening */
   PNEU_STAGE_SPOOL,      /* opening: from the spool to its ports */
@@ -87,7 +89,6 @@ struct pneu_terms {
   pneu_real friction;                  /* [N] level of dry friction at the present velocity */
   pneu_real p_shown, T_shown, x_shown; /* [Pa] gauge, [K], [m] by the sensors */
 
-  pneu_real zero, span, dead_band;    /* [m], [1], [1] by which a positioner's feedback and dead band are off */
   pneu_real crossing;                 /* [1] opening of the other port of an underlapped spool, signed as `opening` */
   pneu_line supply_line;              /* on the way from the supply, without a volume */
   pneu_line exhaust_line;             /* on the way out */
@@ -100,6 +101,7 @@ struct pneu_terms {
   pneu_real film;                     /* [W/K] its conductance */
   pneu_real bristle_force;            /* [N] */
   pneu_real din_dp, dout_dp, dout_dT; /* slopes of the flows, base model only */
+  int side;                           /* enum pneu_side */
   int choked;                         /* flow through the transducer */
   int extent;                         /* enum pneu_extent */
 };
@@ -125,11 +127,20 @@ void pneu_evaluate_sensors(const pneu_model *model, const pneu_state *state, con
 /* Rates of the packed vector but for the effects' states, from the sums. */
 void pneu_rates(const pneu_terms *terms, int mode, pneu_real *dydt);
 
-/* Whether commands can be on their way: a constant to a compiler that optimises, which leaves out what is for them. */
+/* Whether an effect is compiled in: a constant to a compiler that optimises, which leaves out what is for it. */
 static inline int pneu_has_dead_time(void)
 {
   return 0
 #define PNEU_EFFECT(name, n_param, n_state) || strcmp(#name, "dead_time") == 0
+#include PNEU_EFFECTS_FILE
+#undef PNEU_EFFECT
+      ;
+}
+
+static inline int pneu_has_positioner(void)
+{
+  return 0
+#define PNEU_EFFECT(name, n_param, n_state) || strcmp(#name, "positioner") == 0
 #include PNEU_EFFECTS_FILE
 #undef PNEU_EFFECT
       ;
@@ -141,10 +152,17 @@ static inline pneu_delay *pneu_commands(const pneu_input *input)
   return pneu_has_dead_time() ? input->delay : NULL;
 }
 
-/* Whether a dead time lies in the loop of a positioner, which has prepared its dead band, and not before the model. */
-static inline int pneu_is_late_in_loop(const pneu_model *model, const pneu_input *input)
+/* Error of a positioner's loop [1] of the stroke, with the stem at x [m]. */
+static inline pneu_real pneu_loop_error(const pneu_model *model, pneu_real set, pneu_real x)
 {
-  return model->band_edge > 0 && input->set_position;
+  return set - (x * (1 + model->feedback_span) + model->feedback_zero) / model->p.stroke;
+}
+
+/* Whether the command is the set position of a positioner, which has prepared its dead band: a dead time then lies in its
+ * loop, and not before the model. */
+static inline int pneu_is_in_loop(const pneu_model *model, const pneu_input *input)
+{
+  return pneu_has_positioner() && model->band_edge > 0 && input->set_position;
 }
 
 /* Whether pressure, temperature and volume of a state are above zero. */

@@ -78,9 +78,9 @@ static int only_slides(const pneu_model *model, const pneu_state *state, const p
   const int i_x = model->n_gas, i_v = i_x + 1;
   const pneu_real v = bulge(work, i_v), x = bulge(work, i_x);
   pneu_real start[PNEU_EVENT_MAX], end[PNEU_EVENT_MAX];
-  pneu_events(model, state, input, work->y0, start);
+  const int n = pneu_events(model, state, input, work->y0, start);
   pneu_events(model, state, input, work->y1, end);
-  return start[0] < -v && end[0] < -v && start[1] < -x && end[1] < -x;
+  return start[0] < -v && end[0] < -v && start[1] < -x && end[1] < -x && (n < 3 || (start[2] < -x && end[2] < -x));
 }
 
 /* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out:

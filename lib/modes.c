@@ -10,8 +10,53 @@ static void rest_balance(const pneu_terms *t, pneu_real *force, pneu_real *level
   *level = (t->model->bristle ? 0 : t->friction) + t->model->force_noise;
 }
 
-int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
-                pneu_real *g)
+/* ---- The dead band of a positioner ---- */
+
+static int has_side(const pneu_state *state)
+{
+  return pneu_has_positioner() && state->side != PNEU_SIDE_UNTOLD;
+}
+
+/* By how much [m] a stem at x is off its side. */
+static pneu_real off_side(const pneu_model *model, int side, const pneu_input *input, pneu_real x)
+{
+  const pneu_real error = pneu_loop_error(model, input->u + input->u_rate * input->elapsed, x);
+  const pneu_real over = side == PNEU_SIDE_BELOW   ? model->dead_band - error
+                         : side == PNEU_SIDE_ABOVE ? model->dead_band + error
+                                                   : PNEU_M(fabs)(error) - model->dead_band;
+  return over * model->p.stroke / (1 + model->feedback_span);
+}
+
+/* The side on which the stem is; within rounding of an edge, the one on which it was. */
+static void find_side(const pneu_model *model, const pneu_input *input, pneu_state *state)
+{
+  const pneu_real rounding = PNEU_ON_EDGE * model->p.stroke;
+  if (!pneu_is_in_loop(model, input) || !(model->dead_band > 0) || input->u_rate != 0 || model->law.pressure_input)
+    state->side = PNEU_SIDE_UNTOLD;
+  else if (state->side == PNEU_SIDE_UNTOLD || off_side(model, state->side, input, state->x) > rounding)
+    state->side = off_side(model, PNEU_SIDE_BELOW, input, state->x) < 0   ? PNEU_SIDE_BELOW
+                  : off_side(model, PNEU_SIDE_ABOVE, input, state->x) < 0 ? PNEU_SIDE_ABOVE
+                                                                          : PNEU_SIDE_WITHIN;
+}
+
+/* To the other side of an edge. */
+static void pass_edge(const pneu_model *model, const pneu_input *input, pneu_state *state)
+{
+  if (state->side != PNEU_SIDE_WITHIN)
+    state->side = PNEU_SIDE_WITHIN;
+  else
+    state->side = pneu_loop_error(model, input->u, state->x) > 0 ? PNEU_SIDE_BELOW : PNEU_SIDE_ABOVE;
+}
+
+/* ---- Events ---- */
+
+/* Number of the stem's own; that of the dead band comes behind them. */
+static const unsigned char of_stem[PNEU_MODE_COUNT] = {
+    [PNEU_MODE_LOWER] = 1, [PNEU_MODE_UPPER] = 1, [PNEU_MODE_STUCK] = 2, [PNEU_MODE_UP] = 2, [PNEU_MODE_DOWN] = 2};
+
+/* Returns: of_stem, 0 where the state is not physical */
+static int stem_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                       pneu_real *g)
 {
   pneu_terms t;
   pneu_real force, level;
@@ -36,7 +81,17 @@ int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_inp
   rest_balance(&t, &force, &level);
   g[0] = state->mode == PNEU_MODE_UPPER ? -force - level : force - level;
   g[1] = -force - level;
-  return state->mode == PNEU_MODE_STUCK ? 2 : 1;
+  return of_stem[state->mode];
+}
+
+int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
+                pneu_real *g)
+{
+  const int n = stem_events(model, state, input, y, g), i_x = model->n_gas;
+  if (!has_side(state) || n < of_stem[state->mode])
+    return n;
+  g[n] = off_side(model, state->side, input, pneu_dimension(model, state->mode) > i_x ? y[i_x] : state->x);
+  return n + 1;
 }
 
 /* Mode of a stem with v = 0. */
@@ -52,7 +107,7 @@ static int rest_mode(const pneu_model *model, pneu_real x, pneu_real force, pneu
   return up ? PNEU_MODE_UP : down ? PNEU_MODE_DOWN : PNEU_MODE_STUCK;
 }
 
-void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *state)
+static void settle(const pneu_model *model, const pneu_input *input, pneu_state *state)
 {
   pneu_terms t;
   pneu_real y[PNEU_STATE_MAX], force, level;
@@ -77,21 +132,27 @@ void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *s
   state->mode = rest_mode(model, state->x, force, level);
 }
 
+void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *state)
+{
+  find_side(model, input, state);
+  settle(model, input, state);
+}
+
 /* Sliding has ended between the stops: go the other way, or the same way if there is a resolvable push, or stay. */
 static void come_to_rest(const pneu_model *model, const pneu_input *input, pneu_state *state)
 {
   const int before = state->mode;
   pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];
-  pneu_settle(model, input, state);
+  settle(model, input, state);
   if (state->mode != before)
     return;
   state->mode = PNEU_MODE_STUCK;
   pneu_pack(model, state, y);
-  if (pneu_events(model, state, input, y, g) > 0 && g[before == PNEU_MODE_UP ? 0 : 1] > model->force_resolved)
+  if (stem_events(model, state, input, y, g) > 0 && g[before == PNEU_MODE_UP ? 0 : 1] > model->force_resolved)
     state->mode = before;
 }
 
-void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state)
+static void switch_mode(const pneu_model *model, const pneu_input *input, int which, pneu_state *state)
 {
   const int mode = state->mode;
   if (mode == PNEU_MODE_LOWER || mode == PNEU_MODE_STUCK || mode == PNEU_MODE_UPPER) {
@@ -106,7 +167,16 @@ void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pn
   state->v = 0;
   if (which == 1) { /* a stop */
     state->x = mode == PNEU_MODE_UP ? model->upper_stop : model->lower_stop;
-    pneu_settle(model, input, state);
+    settle(model, input, state);
   } else
     come_to_rest(model, input, state);
+}
+
+void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state)
+{
+  if (has_side(state) && which == of_stem[state->mode])
+    pass_edge(model, input, state);
+  else
+    switch_mode(model, input, which, state);
+  find_side(model, input, state);
 }

@@ -183,6 +183,10 @@ enum pneu_mode {
   PNEU_MODE_COUNT
 };
 
+/* Where a stem is about the positions at which its positioner shuts both orifices, its dead band: the opening jumps at
+ * either edge. Along a ramp of the set position it does not, and no side is told. */
+enum pneu_side { PNEU_SIDE_UNTOLD, PNEU_SIDE_BELOW, PNEU_SIDE_WITHIN, PNEU_SIDE_ABOVE };
+
 enum pneu_param {
 #define X(name, unit, lo, hi, dflt, text) PNEU_PARAM_##name,
   PNEU_PARAM_LIST(X)
@@ -292,6 +296,7 @@ typedef struct pneu_state {
   pneu_real v;                     /* [m/s] stem velocity */
   pneu_real extra[PNEU_EXTRA_MAX]; /* states of the active effects, see pneu_model.state_of; the clock */
   int mode;                        /* enum pneu_mode */
+  int side;                        /* enum pneu_side, which a step keeps; pneu_settle and pneu_switch tell it */
 } pneu_state;
 
 /* Forms of an effect: one that it always has, and one that it may do without. */
@@ -382,6 +387,8 @@ struct pneu_model {
   pneu_real band_edge;                 /* [1] of the stroke, over which a positioner's dead band opens while its set
                                           position runs; may be changed after pneu_model_init to another above
                                           0, see effects/positioner.c */
+  pneu_real dead_band;                 /* [1] of the stroke, of a positioner, either way; 0: none */
+  pneu_real feedback_zero, feedback_span; /* [m], [1]: it sees x (1 + span) + zero */
   pneu_line supply_loss;               /* on the way from the supply, without a volume */
   pneu_real area_slope;                /* [1/m] share of the effective area lost per travel */
   pneu_real command_delay;             /* [s] from a command to its action, see pneu_input.delay; a set position acts
@@ -602,7 +609,7 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
  * repeats by which the end of one is located; evaluations of the right-hand
  * side in a pneu_step, the Jacobian's differences and looks for events apart. */
 enum {
-  PNEU_EVENT_MAX = 2,
+  PNEU_EVENT_MAX = 3,
   PNEU_PARTS_MAX = 64,
   PNEU_PARTS_COARSE = 28,
   PNEU_PARTS_HELD = 12,
@@ -613,19 +620,20 @@ enum {
 /* Event functions of the state's mode: an event happens where g rises through 0.
  * Out:     g  as many as returned, at most PNEU_EVENT_MAX: force above break-away [N] at rest,
  *             velocity [m/s] against the mode's, with bristles beyond what is resolved, and distance beyond the stop
- *             [m] while sliding
- * Returns: their number; 0 driven, for a vessel, and at rest where the state is not physical. */
+ *             [m] while sliding; last, where the state has a side, distance beyond the edge of the dead band [m]
+ * Returns: their number; 0 for a vessel, and at rest where the state is not physical. */
 int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                 pneu_real *g);
 
-/* Mode after event `which` of pneu_events fired, 0 <= which < its result; sets x and v exactly (v = 0 on a stop: the
- * impact is taken as inelastic).  In/out: state */
+/* Mode and side after event `which` of pneu_events fired, 0 <= which < its result; sets x and v exactly (v = 0 on a
+ * stop: the impact is taken as inelastic).  In/out: state */
 void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state);
 
-/* Mode that the balance of forces asks for at the present instant, after an input has jumped. A stem that
+/* Side of the dead band, and mode that the balance of forces asks for, at the present instant, after an input has
+ * jumped. A stem that
  * moves goes on, or, if into a stop that it has reached, is at rest there; a driven one takes the input's rate as v.
  * At rest a state that is not physical (absolute pressure, temperature or volume <= 0) counts as stuck.
- * In/out: state, mode and v */
+ * In/out: state, side, mode and v */
 void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *state);
 
 /* ---- What comes late ---- */

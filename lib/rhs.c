@@ -60,6 +60,7 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->x = n > i_x ? y[i_x] : state->x;
   t->v = n > i_x + 1 ? y[i_x + 1] : state->mode == PNEU_MODE_DRIVEN ? input->position_rate : 0;
   t->sense = sense_of(state->mode, t->v);
+  t->side = state->side;
   t->time = model->clock >= 0 ? y[1 + model->thermal + model->clock] : 0;
   t->area = p->area * (1 - model->area_slope * t->x);
   t->swept_area = t->area * p->swept_ratio;
@@ -68,7 +69,7 @@ static void begin(const pneu_model *model, const pneu_state *state, const pneu_i
   t->exhaust = p->ambient_pressure;
   t->fill_area = p->fill_area;
   t->vent_area = p->vent_area;
-  t->zero = t->span = t->dead_band = t->crossing = 0;
+  t->crossing = 0;
   t->asked = t->opening = t->choked_share = 0;
   t->mass_in = t->mass_out = t->drawn = t->mass_in_T = 0;
   t->growth = t->heat = t->film = t->bristle_force = 0;

@@ -286,7 +286,7 @@ static int advance(run *r)
 static int give_command(const pneu_model *model, const pneu_input *input)
 {
   pneu_delay *late = pneu_commands(input);
-  const pneu_real delay = pneu_is_late_in_loop(model, input) ? 0 : model->command_delay;
+  const pneu_real delay = pneu_is_in_loop(model, input) ? 0 : model->command_delay;
   if (late)
     return pneu_delay_give(late, delay, input->u);
   return pneu_has_dead_time() && delay > 0 ? PNEU_E_DELAY : PNEU_OK;

@@ -32,7 +32,7 @@ static void prepare(pneu_model *model, const pneu_real *param)
 /* An opening that is not the positioner's comes late by its line. */
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
-  const int late = pneu_is_late_in_loop(t->model, t->input);
+  const int late = pneu_is_in_loop(t->model, t->input);
   int i;
   for (i = 0; i < count_lags(t->model); i++) {
     rate[i] = late ? LAGS * (t->opening - state[i]) / param[DELAY] : 0;

@@ -8,9 +8,9 @@
  * The state is I. It begins at integral_start, for a loop has worked before its record, and stands still within the
  * dead band, beyond the cut-offs and while u is clipped, lest it wind up. Without pneu_input.set_position the command
  * is u itself, and I stands still. The rate of I where u is clipped follows a straight line over CLIPPED of the
- * opening. u jumps at the edge of the dead band, where error control shortens the step: a stem that a leak pushes out
- * of the band stops by its friction where it is, and air is let in until p has risen by the friction band, 2 F/A; then
- * the cycle begins again. An opening that rises over 0.01 % of the stroke would hold the stem there, and p would be off
+ * opening. u jumps at the edge of the dead band, an event that ends a step (pneu_state.side): a stem that a leak pushes
+ * out of the band stops by its friction where it is, and air is let in until p has risen by the friction band, 2 F/A;
+ * then the cycle begins again. An opening that rises over 0.01 % of the stroke would hold the stem there, and p would be off
  * by up to that. Along a ramp of the set position u does rise, over EDGE of the stroke: the stem would go in and out
  * of the band ninety times a second, which takes 15 times the steps for at most 1 um of 38 mm of travel. Without
  * friction it does so everywhere. A short stroke goes in and out all the same: 10 mm at 0.3 mm/s sixty times a second
@@ -44,21 +44,22 @@ static pneu_real clip(pneu_real value, pneu_real low, pneu_real high)
 }
 
 /* Share of the opening that the dead band lets through. */
-static pneu_real outside(const pneu_terms *t, pneu_real error, pneu_real band)
+static pneu_real outside(const pneu_terms *t, pneu_real error)
 {
-  const pneu_real beyond = PNEU_M(fabs)(error) - band, edge = t->model->band_edge;
-  if (!(band > 0))
+  const pneu_real beyond = PNEU_M(fabs)(error) - t->model->dead_band, edge = t->model->band_edge;
+  if (!(t->model->dead_band > 0))
     return 1;
+  if (t->side != PNEU_SIDE_UNTOLD)
+    return t->side != PNEU_SIDE_WITHIN;
   return t->input->u_rate != 0 ? clip((edge > EDGE ? PNEU_C(0.5) : 0) + beyond / edge, 0, 1) : beyond > 0;
 }
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
 {
-  const pneu_real stroke = t->model->p.stroke, set = t->asked, scale = (1 + t->span) / stroke;
-  const pneu_real error = set - t->x * scale - t->zero / stroke;
-  const pneu_real error_rate = t->input->u_rate - t->v * scale;
+  const pneu_real set = t->asked, error = pneu_loop_error(t->model, set, t->x);
+  const pneu_real error_rate = t->input->u_rate - t->v * (1 + t->model->feedback_span) / t->model->p.stroke;
   const pneu_real u = param[GAIN] * (error + state[0] + param[DERIVATIVE_TIME] * error_rate);
-  const pneu_real passes = outside(t, error, param[DEAD_BAND] + t->dead_band);
+  const pneu_real passes = outside(t, error);
   rate[0] = 0;
   if (!t->input->set_position || t->model->law.pressure_input)
     return;
@@ -83,8 +84,8 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 
 static void prepare(pneu_model *model, const pneu_real *param)
 {
-  (void)param;
   model->band_edge = EDGE;
+  model->dead_band += param[DEAD_BAND];
 }
 
 /* A vessel has no position; a set pressure is no set position. */

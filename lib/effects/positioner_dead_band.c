@@ -7,10 +7,9 @@ enum { EXCESS };
 static const pneu_param_info params[] = {{"dead_band_excess", "1", 0, PNEU_C(0.5), PNEU_C(0.005), 0, 0,
                                           "share of the stroke added to the dead band, either way"}};
 
-static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
+static void prepare(pneu_model *model, const pneu_real *param)
 {
-  (void)state, (void)rate;
-  t->dead_band += param[EXCESS];
+  model->dead_band += param[EXCESS];
 }
 
 const pneu_effect pneu_effect_record_positioner_dead_band = {
@@ -19,9 +18,9 @@ const pneu_effect pneu_effect_record_positioner_dead_band = {
     "dead band of a positioner: IEC 61514",
     "command",
     "the stem comes to rest off its set position, on the side from which it came, by up to the same either way",
-    PNEU_STAGE_FEEDBACK,
+    PNEU_STAGE_POSITIONER,
     params,
-    .add = add};
+    .prepare = prepare};
 
 const char pneu_effect_sentence_positioner_dead_band[] =
     "The positioner ignores errors that are {percent} of the stroke larger than its declared dead band.";

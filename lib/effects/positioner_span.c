@@ -7,10 +7,9 @@ enum { EXCESS };
 static const pneu_param_info params[] = {{"span_excess", "1", PNEU_C(-0.9), PNEU_C(10.0), PNEU_C(0.02), 0, 0,
                                           "what is fed back too much, over the true position"}};
 
-static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
+static void prepare(pneu_model *model, const pneu_real *param)
 {
-  (void)state, (void)rate;
-  t->span += param[EXCESS];
+  model->feedback_span = param[EXCESS];
 }
 
 const pneu_effect pneu_effect_record_positioner_span = {
@@ -20,9 +19,9 @@ const pneu_effect pneu_effect_record_positioner_span = {
     "14:577)",
     "command",
     "the stem comes to rest right at the lower end and off its set position in proportion above it",
-    PNEU_STAGE_FEEDBACK,
+    PNEU_STAGE_POSITIONER,
     params,
-    .add = add};
+    .prepare = prepare};
 
 const char pneu_effect_sentence_positioner_span[] =
     "The positioner sees {percent} of the travel too {+much|little}: its span is off.";

@@ -7,10 +7,9 @@ enum { SHIFT };
 static const pneu_param_info params[] = {
     {"zero_shift", "m", PNEU_C(-1.0), PNEU_C(1.0), PNEU_C(2e-4), 0, 0, "what is fed back too much"}};
 
-static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
+static void prepare(pneu_model *model, const pneu_real *param)
 {
-  (void)state, (void)rate;
-  t->zero += param[SHIFT];
+  model->feedback_zero = param[SHIFT];
 }
 
 const pneu_effect pneu_effect_record_positioner_zero = {
@@ -20,9 +19,9 @@ const pneu_effect pneu_effect_record_positioner_zero = {
     "14:577)",
     "command",
     "the stem comes to rest off its set position by the same everywhere",
-    PNEU_STAGE_FEEDBACK,
+    PNEU_STAGE_POSITIONER,
     params,
-    .add = add};
+    .prepare = prepare};
 
 const char pneu_effect_sentence_positioner_zero[] =
     "The zero of the positioner has shifted: it sees {size} too {+much|little}, {of_stroke} of the stroke.";

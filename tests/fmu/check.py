@@ -71,6 +71,8 @@ LUGRE = """effects = { presliding = { presliding_length = "0.05 mm"; }; connecti
 LAGS = """effects = { chamber_leak = { leak_area = "0.02 mm^2"; }; transducer_lag = { transducer_time = "0.01 s"; };
   heat_transfer = { film_resistance = "0.5 K/W"; }; pressure_lag = { pressure_time = "0.02 s"; }; };\n"""
 STICK_SLIP = 'effects = { stribeck_friction = { stribeck_excess = "0.3"; }; };\n'
+POSITIONER = """positioner = { gain = 20; dead_band = "1 %"; };
+effects = { chamber_leak = { leak_area = "0.02 mm^2"; }; };\n"""
 TERMS = """unlisted = (
   { equation = "friction"; argument = "x"; from = "0 mm"; to = "20 mm"; values = [ 0, 60, 150, 60, 0 ]; unit = "N"; },
   { equation = "force"; argument = "t"; from = "0 s"; to = "7 s"; values = [ 120, 80, 0, 40 ]; unit = "N"; } );\n"""
@@ -373,12 +375,14 @@ def driven_cases():
             yield f"driven stem {gas} {flow}", path, (t, command, 400, 0 * t, turns(t, 2, 18, 1.3))
     path = driven_model(model("pumped", flow="choked", more=PUMPED), "pumped", '"u", "x"')
     yield "driven stem, effects", path, (t, command, 400, 0 * t, turns(t, 3, 21, 1.3))
+    path = model("dead-band", flow="choked", more=POSITIONER)
+    yield "dead band of a positioner", path, (t, 0.5 + 0.3 * command, 400, None, None)
 
 
 def write_log(path, columns):
     """A log of what is not None."""
     t, *_ = columns
-    words = ("t [s]", "u [1]", "ps [kPa]", "p [kPa]", "x [mm]")
+    words = ("t [s]", "sp [1]" if path.stem == "dead-band" else "u [1]", "ps [kPa]", "p [kPa]", "x [mm]")
     there = [(word, c + 0 * t) for word, c in zip(words, columns) if c is not None]
     rows = [",".join(word for word, _ in there)]
     rows += [",".join(f"{value:.17g}" for value in row) for row in zip(*(c for _, c in there))]

@@ -1115,3 +1115,81 @@ TEST(test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_b
   }
   assert_close(high - low, band, 0, 0.03);
 }
+
+/* The edges that a stem has passed. */
+typedef struct edges {
+  int n, side;
+  double furthest; /* that it was off one, of the stroke */
+} edges;
+
+static int note_edge(void *context, pneu_real t, const pneu_state *after, int before)
+{
+  edges *e = (edges *)context;
+  const double off = fabs(0.5 - (double)after->x / 0.02);
+  (void)t, (void)before;
+  if (after->side != e->side) {
+    e->n++;
+    e->furthest = fmax(e->furthest, fabs(off - 0.01));
+  }
+  e->side = after->side;
+  return 0;
+}
+
+/* Without friction the stem swings through its dead band; each edge ends a step. */
+TEST(test_pneu_run__dead_band__steps_end_on_its_edges)
+{
+  edges e = {.side = PNEU_SIDE_BELOW};
+  const pneu_observer observer = {NULL, note_edge, &e};
+  const pneu_options options = fixture_options(TOL(1e-7, 1e-4));
+  pneu_params p = positioned(20);
+  pneu_workspace work = {0};
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  fixture_set(&p, "dead_band", 0.01);
+  fixture_need("positioner");
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = set_position(&m, 0.5);
+  s = fixture_rest(&m, 0, 0, &input);
+  assert_int_equal(pneu_run(&m, &s, &input, 60, &options, &observer, &work), PNEU_OK);
+  assert_between(e.n, 1, 1000);
+  assert_close(e.furthest, 0, TOL(1e-9, 1e-4), 0);
+  assert_int_equal(s.side, PNEU_SIDE_WITHIN);
+}
+
+/* Out of the band to one side, the set position may have jumped to the other. */
+TEST(test_pneu_side__set_position_jumps_or_ramps__is_told_again)
+{
+  static const struct {
+    double set, rate;
+    int side;
+  } told[] = {{0.5, 0, PNEU_SIDE_BELOW},
+              {0.31, 0, PNEU_SIDE_WITHIN},
+              {0.1, 0, PNEU_SIDE_ABOVE},
+              {0.5, 0.1, PNEU_SIDE_UNTOLD},
+              {0.29, 0, PNEU_SIDE_WITHIN}};
+  pneu_params p = positioned(20);
+  pneu_model m;
+  pneu_input input;
+  pneu_state s;
+  int i;
+  fixture_set(&p, "dead_band", 0.02);
+  fixture_need("positioner");
+  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+  input = set_position(&m, 0.3);
+  s = fixture_rest(&m, 0, 0.006, &input);
+  for (i = 0; i < COUNT(told); i++) {
+    pneu_state after = s;
+    pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];
+    check_note("%d", i);
+    input = set_position(&m, told[i].set);
+    input.u_rate = (pneu_real)told[i].rate;
+    pneu_settle(&m, &input, &after);
+    assert_int_equal(after.side, told[i].side);
+    after = s;
+    after.side = PNEU_SIDE_BELOW;
+    pneu_pack(&m, &after, y);
+    pneu_switch(&m, &input, pneu_events(&m, &after, &input, y, g) - 1, &after);
+    assert_int_equal(after.side, told[i].side);
+  }
+}

@@ -112,25 +112,25 @@ static int is_choked(const fmu_instance *i)
   return pneu_observe(&i->model, &state, &input, &out) == PNEU_OK ? out.choked : i->m.choked;
 }
 
-/* What event function k measures decides its margin: forces at rest, else speed and then travel. */
-static double margin(const fmu_instance *i, int k)
+/* What event function k of n measures decides its margin: forces at rest, else speed and then travel; the last, where
+ * there is a side of a dead band, travel too. */
+static double margin(const fmu_instance *i, int k, int n)
 {
-  switch (i->m.state.mode) {
-  case PNEU_MODE_UP:
-  case PNEU_MODE_DOWN:
-    return k == 0 ? SPEED_MARGIN * i->model.scale[3] : TRAVEL_MARGIN * i->model.scale[2];
-  default:
-    return i->model.force_noise;
-  }
+  const int mode = i->m.state.mode, slides = mode == PNEU_MODE_UP || mode == PNEU_MODE_DOWN;
+  if (slides && k == 0)
+    return SPEED_MARGIN * i->model.scale[3];
+  if (slides || (i->m.state.side != PNEU_SIDE_UNTOLD && k == n - 1))
+    return TRAVEL_MARGIN * i->model.scale[2];
+  return i->model.force_noise;
 }
 
 void fmu_arm(fmu_instance *i)
 {
   double g[PNEU_EVENT_MAX];
+  const int n = event_functions(i, g);
   int k;
-  event_functions(i, g);
   for (k = 0; k < PNEU_EVENT_MAX; k++)
-    i->m.threshold[k] = fmax(g[k], 0) + margin(i, k);
+    i->m.threshold[k] = fmax(g[k], 0) + margin(i, k, n);
   i->m.choked = is_choked(i);
 }
 

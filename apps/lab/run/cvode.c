@@ -144,7 +144,7 @@ static int weights(N_Vector y, N_Vector w, void *data)
 
 static int solver_create(lab_cvode *c, solver *s, int n)
 {
-  int direction[PNEU_EVENT_MAX] = {1, 1};
+  int direction[PNEU_EVENT_MAX] = {1, 1, 1};
   s->y = N_VNew_Serial(n, c->context);
   s->matrix = SUNDenseMatrix(n, n, c->context);
   s->memory = CVodeCreate(CV_BDF, c->context);

@@ -192,7 +192,7 @@ static int sample_step(void *context, const pneu_step_view *view)
       lab_sampler_take(e->sampler, &at);
     }
     if (e->vary)
-      lab_variations_pass(e->vary, view);
+      lab_variations_pass(e->vary);
   }
   return 0;
 }

@@ -43,12 +43,12 @@ struct lab_variations {
   const pneu_model *model;
   pneu_input input; /* at the beginning of the row */
   double theta;     /* of the present look, in the part of the step */
-  int events;       /* in the row */
+  int events;       /* of the stem, in the row */
+  int side;         /* of a dead band */
   int is_lost;      /* none can be followed */
   double length;    /* [s] of a part of a step that follows what changes; a step as a rule is shorter */
   /* the part of a step: */
   double from, to; /* shares of the step */
-  double behind;   /* an edge that ends it, where what follows begins; else `to` */
   int shortened;   /* times in this step */
   pneu_state state[STAGES];
   pneu_shown shown[STAGES];
@@ -369,97 +369,6 @@ void lab_variations_expect(struct lab_variations *v, int samples)
       v->of[i].is_off = look_at_stages(v, &v->of[i]) != 0;
 }
 
-/* ---- The edge of a positioner's dead band, where the opening jumps and the stepper has no event ---- */
-
-enum { DEAD_BAND = PNEU_AT_positioner + 3, CUTOFF_LOW, CUTOFF_HIGH }; /* as in lib/effects/positioner.c */
-
-/* How far the error of a positioner is beyond its dead band, in shares of the stroke; NaN where it does not matter. */
-static double beyond_band(const pneu_model *m, const pneu_state *s, const pneu_input *input)
-{
-  const pneu_real *e = m->p.effect;
-  const double band = e[DEAD_BAND] + e[PNEU_AT_positioner_dead_band], low = e[CUTOFF_LOW], high = e[CUTOFF_HIGH];
-  const double x = s->x * (1 + e[PNEU_AT_positioner_span]) + e[PNEU_AT_positioner_zero];
-  if (!(e[PNEU_AT_positioner] > 0) || !(band > 0) || !input->set_position || input->u_rate != 0 ||
-      m->law.pressure_input || (low > 0 && input->u < low) || (high > 0 && input->u > high))
-    return NAN;
-  return fabs(input->u - x / m->p.stroke) - band;
-}
-
-static double edge_at(const pneu_step_view *view, double theta, pneu_state *state)
-{
-  pneu_dense(view, theta, state);
-  return beyond_band(view->model, state, view->input);
-}
-
-static double edge_nearby(const struct lab_variations *v, const nearby *k, const pneu_state *state)
-{
-  const pneu_state s = displaced(v->model, state, k->d[0]);
-  return beyond_band(k->model, &s, &k->input);
-}
-
-/* The last place at which the run is `level` or more on the side of the edge on which the part begins. */
-static double place_on_side(const pneu_step_view *view, double from, double to, double side, double level)
-{
-  enum { HALVINGS = 40 };
-  pneu_state state;
-  int i;
-  for (i = 0; i < HALVINGS; i++) {
-    const double theta = (from + to) / 2;
-    *(side * edge_at(view, theta, &state) >= level ? &from : &to) = theta;
-  }
-  return from;
-}
-
-/* End the part before an edge, and have what follows begin behind it, by as much as puts all nearby runs on the same
- * side as the run. */
-static void stop_at_edge(struct lab_variations *v, const pneu_step_view *view)
-{
-  static const double margin = 3, rounding = 1e-14;
-  static const double least = 1e-9; /* of a step, that it goes on where the edge is met by a rounding error */
-  pneu_state state, end_state;
-  const double start = edge_at(view, v->from, &state), end = edge_at(view, v->to, &end_state);
-  const double side = start > 0 ? 1 : -1;
-  double most = rounding;
-  int i;
-  v->behind = v->to;
-  if (!(start * end < 0))
-    return;
-  for (i = 0; i < v->n; i++)
-    if (is_moved(&v->of[i]))
-      most = fmax(most, margin * fabs(edge_nearby(v, &v->of[i], &state) - start));
-  v->behind = fmin(fmax(place_on_side(view, v->from, v->to, side, -most), v->from + least), 1);
-  v->to = place_on_side(view, v->from, v->to, side, most);
-}
-
-/* A nearby run passes the edge later: it goes on as before for so long.
- * In:      rate  of what the run is beyond the edge
- *          f     rates of the run behind it */
-static int pass_edge(struct lab_variations *v, nearby *k, double rate, const pneu_state *behind, const pneu_real *f)
-{
-  const double late = (beyond_band(v->model, &v->state[2], &v->input) - edge_nearby(v, k, &v->state[2])) / rate;
-  pneu_state s = displaced(v->model, behind, k->d[0]), end = *behind;
-  drift(v->model, behind->mode, v->f[2], late, &s);
-  drift(v->model, behind->mode, f, late, &end);
-  subtract(v->model, &s, &end, k->d[0]);
-  k->knows_start = 0;
-  return isfinite(late) ? 0 : -1;
-}
-
-static void pass_edges(struct lab_variations *v, const pneu_step_view *view)
-{
-  pneu_state behind;
-  pneu_input input = *view->input;
-  pneu_real f[S];
-  const double there = edge_at(view, v->behind, &behind), here = beyond_band(v->model, &v->state[2], &v->input);
-  const double rate = (there - here) / ((v->behind - v->to) * view->h);
-  int i, is_lost;
-  input.elapsed += v->behind * view->h;
-  is_lost = rates_at(v->model, &behind, &input, f) != PNEU_OK;
-  for (i = 0; i < v->n; i++)
-    if (is_moved(&v->of[i]))
-      v->of[i].is_off = is_lost || pass_edge(v, &v->of[i], rate, &behind, f);
-}
-
 /* ---- A step, in parts ---- */
 
 /* Follow all to v->to.  Returns: the largest error over what it may be */
@@ -487,7 +396,7 @@ double lab_variations_step(struct lab_variations *v, const pneu_step_view *view,
 {
   double error, factor;
   v->from = from;
-  v->to = v->behind = 1;
+  v->to = 1;
   v->is_lost = v->is_lost || v->events > EVENTS;
   if (v->is_lost || !any_moved(v))
     return 1;
@@ -495,7 +404,6 @@ double lab_variations_step(struct lab_variations *v, const pneu_step_view *view,
     v->shortened = 0;
   for (;;) {
     v->to = fmin(1, from + v->length / view->h);
-    stop_at_edge(v, view);
     error = try_part(v, view);
     factor = 0.9 / cbrt(error);
     if (!(error > 1) || v->shortened == SHORTENED)
@@ -504,7 +412,7 @@ double lab_variations_step(struct lab_variations *v, const pneu_step_view *view,
     v->length = (v->to - from) * view->h * fmax(factor, 0.1);
   }
   v->length = fmax(v->length, (v->to - from) * view->h * fmin(fmax(factor, 2), 5));
-  return v->behind;
+  return v->to;
 }
 
 void lab_variations_look(struct lab_variations *v, double theta)
@@ -528,7 +436,7 @@ static void note_same(const struct lab_variations *v, nearby *k)
     memset(k->d, 0, sizeof k->d);
 }
 
-void lab_variations_pass(struct lab_variations *v, const pneu_step_view *view)
+void lab_variations_pass(struct lab_variations *v)
 {
   int i;
   v->theta = 0;
@@ -542,13 +450,11 @@ void lab_variations_pass(struct lab_variations *v, const pneu_step_view *view)
     k->knows_start = 1;
     note_same(v, k);
   }
-  if (v->behind > v->to && !v->is_lost)
-    pass_edges(v, view);
 }
 
 /* ---- Events ---- */
 
-/* Which event has ended the step: of a stem that slides the one that is nearer, at rest the stronger push. */
+/* Which event of the stem has ended the step: if it slides the one that is nearer, at rest the stronger push. */
 static int event_of(const struct lab_variations *v, const pneu_real *g, int n_events)
 {
   const int mode = v->state[2].mode;
@@ -595,14 +501,16 @@ static int pass_event(const struct lab_variations *v, nearby *k, int which, cons
 void lab_variations_event(struct lab_variations *v, const pneu_state *after)
 {
   pneu_real y[S], g[PNEU_EVENT_MAX], f[S];
+  const int is_edge = after->side != v->side;
   int n_events, which, i, is_lost;
   double rate;
-  v->events++;
+  v->side = after->side;
+  v->events += !is_edge;
   if (v->is_lost)
     return;
   pneu_pack(v->model, &v->state[2], y);
   n_events = pneu_events(v->model, &v->state[2], &v->at[2], y, g);
-  which = event_of(v, g, n_events);
+  which = is_edge ? n_events - 1 : event_of(v, g, n_events - (v->side != PNEU_SIDE_UNTOLD));
   rate = rate_of_event(v, which, g);
   is_lost = n_events == 0 || rates_at(v->model, after, &v->at[2], f) != PNEU_OK;
   for (i = 0; i < v->n; i++) {
@@ -662,6 +570,7 @@ void lab_variations_row(struct lab_variations *v, size_t i, const pneu_state *be
   v->input = v->acts->input[i];
   v->theta = 0;
   v->events = 0;
+  v->side = after->side;
   if (v->is_lost)
     return;
   if (any_late(v, i))

@@ -39,7 +39,7 @@ void lab_variations_row(struct lab_variations *v, size_t i, const pneu_state *be
 double lab_variations_step(struct lab_variations *v, const pneu_step_view *view, double from);
 void lab_variations_expect(struct lab_variations *v, int samples);
 void lab_variations_look(struct lab_variations *v, double theta);
-void lab_variations_pass(struct lab_variations *v, const pneu_step_view *view);
+void lab_variations_pass(struct lab_variations *v);
 
 /* It has ended on an event.  In: after  the run's state behind it */
 void lab_variations_event(struct lab_variations *v, const pneu_state *after);
