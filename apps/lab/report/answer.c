@@ -302,12 +302,12 @@ static int conclude(lab_answer *a, lab_error *error)
 }
 
 /* How much of a budget the search may take: what it leaves is for the intervals and for judging, a few simulations for
- * each unknown, of which the fit of the declared model has shown the cost.
+ * each unknown, of which the fit of the declared model has shown the cost: as much again, and as it took itself.
  * In:      budget, fit  [s] of CPU: what is given, and what the fit took */
 static double for_search(double budget, double fit)
 {
   static const double least = 0.5, most = 0.7;
-  return fmax(fmin(most * budget, budget - fit), least * budget);
+  return fmax(fmin(most * budget, budget - 2 * fit), least * budget);
 }
 
 static void place_on_rows(lab_logs *logs, int on_rows)

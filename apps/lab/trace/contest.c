@@ -203,14 +203,15 @@ typedef struct contest {
   double start, until;             /* [s] of CPU time */
 } contest;
 
-/* What is found beside values exactly as declared, and whether that explains the logs.
- * In:      u        the declared model, fitted
- * In/out:  tolerant it within its tolerances, fitted */
+/* What is found beside values exactly as declared, and whether that explains the logs; not asked once the time is
+ * spent. In:      u        the declared model, fitted In/out:  tolerant it within its tolerances, fitted */
 static int search_beside(const lab_unknowns *u, const lab_search_options *options, contest *c, lab_finding *tolerant,
                          lab_error *error)
 {
   lab_candidate *within = &tolerant->best;
-  int status = search_exactly(u, c->begins ? &c->early.best.quality : &within->quality, options, &c->exact, error);
+  int status = LAB_OK;
+  if (!lab_cpu_is_spent(u->until))
+    status = search_exactly(u, c->begins ? &c->early.best.quality : &within->quality, options, &c->exact, error);
   c->is_exact = status == LAB_OK && explains(&c->exact) && !(c->begins && is_plainly_later(&c->early, &c->exact));
   if (c->begins && c->is_exact) {
     c->begins = 0;

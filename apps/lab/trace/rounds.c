@@ -302,6 +302,7 @@ int lab_rounds_run(lab_finding *f, const lab_finding *begun, const lab_quality *
     return lab_fail_memory(error, "the search");
   s->options = options;
   s->result = &f->result;
+  s->start = f->start;
   s->within = within;
   s->declared = f->declared;
   s->unfolding.nuisance = &s->nuisance;

@@ -10,6 +10,7 @@
 typedef struct lab_rounds {
   const lab_search_options *options;
   lab_search_result *result;
+  double start;                       /* [s] of CPU time at which the search began */
   lab_candidate declared;             /* the declared model, fitted unless something is known to begin */
   lab_candidate onset;                /* the declared model with what begins within its run; as free_term */
   lab_candidate free_term;            /* it with the best free term; not fitted: not tried yet, or none */

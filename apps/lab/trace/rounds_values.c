@@ -14,15 +14,15 @@ int lab_rounds_linearise(lab_rounds *s, lab_error *error)
 }
 
 /* Fit what is to be the answer: as far as the time goes, and a step where it is spent, for which there is a tenth more.
- */
-static int fit_in_time(lab_candidate *c, lab_error *error)
+ * In:      start  [s] of CPU time at which the search began */
+static int fit_in_time(lab_candidate *c, double start, lab_error *error)
 {
   static const double more = 0.1;
   const double until = c->u.until;
   int status;
   if (!lab_cpu_is_spent(until))
     return lab_candidate_fit(c, LAB_ROUNDS_ALL, error);
-  c->u.until = until > 0 ? lab_cpu_time() + more * until : 0;
+  c->u.until = until > 0 ? lab_cpu_time() + more * (until - start) : 0;
   status = lab_candidate_fit(c, 1, error);
   c->u.until = until;
   return status;
@@ -56,7 +56,7 @@ int lab_rounds_unfold(lab_rounds *s, lab_error *error)
     return error->status;
   s->without = *best;
   best->u.until = s->declared.u.until;
-  status = fit_in_time(best, error);
+  status = fit_in_time(best, s->start, error);
   if (status == LAB_NUMERIC) {
     *best = s->without;
     status = LAB_OK;
