@@ -38,7 +38,7 @@ static void keep_better(lab_rounds *s)
     return;
   }
   if (s->whole.n_found < best->n_found) {
-    s->over = 1;
+    s->added = 0;
     s->result->n_path -= s->result->n_path > 1;
   }
   *best = s->whole;
