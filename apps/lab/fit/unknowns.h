@@ -262,16 +262,19 @@ typedef struct lab_residual_stats {
   lab_whiteness whiteness; /* of the residuals as they are fitted: whitened where the noise has memory; n is 0 where the
                               channel is not measured */
   int even;                /* not 0: as large everywhere, and no more than one and a half times as large as declared */
+  int steady;              /* not 0: as large in quick and in slow motion as at rest, and no more than that: a sensor's,
+                              whatever its memory, for what a model lacks shows when something moves */
 } lab_residual_stats;
 
 /* Look at what is left, row by row: u->window is 0.  Out: left  Returns: as lab_unknowns_residuals. */
 int lab_unknowns_residual_stats(const lab_unknowns *u, lab_residual_stats left[LAB_CHANNEL_COUNT], lab_error *error);
 
 /* Channels on which what is left is coloured; whether it is white on every one that is measured; whether it is noise
- * there: white and even. */
+ * there: white and even; whether it is a sensor's there: noise or steady. */
 int lab_residual_stats_coloured(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
 int lab_residual_stats_white(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
 int lab_residual_stats_noise(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
+int lab_residual_stats_of_sensors(const lab_residual_stats left[LAB_CHANNEL_COUNT]);
 
 /* Errors over noise, row by row and not whitened: n_rows values for the present unknowns. */
 int lab_unknowns_errors(const lab_unknowns *u, double *r, lab_error *error);

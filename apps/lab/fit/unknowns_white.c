@@ -7,6 +7,9 @@
 
 static const double most = 1.5;  /* times the declared noise: beyond that the declaration means something else */
 static const double even = 0.85; /* of the root mean square: noise has its size everywhere, not in bursts */
+static const double alike = 1.1; /* times the least: at rest, in slow and in quick motion */
+static const double slow = 0.5, quick = 5; /* times the noise, that a prediction changes over 2 REACH rows */
+enum { PACES = 3, REACH = 3, FEWEST = 100 };
 static const double median_of_size = 0.6744897501960817; /* of a normal value */
 
 /* Residuals of one channel of all experiments, as stretches; gaps, which are 0, as NaN.  Returns: stretches */
@@ -42,6 +45,54 @@ static int is_even(const lab_stretch *stretch, int n, double *size)
   return m > 0 && rms < most && lab_median(size, m) / median_of_size > even * rms;
 }
 
+/* What is left of a value, over the noise: a row whose time is uncertain counts for less where it moves. */
+static double left_at(const lab_run *x, int c, const double *r, size_t i)
+{
+  return r[i] / x->weight[(size_t)c * x->n + i];
+}
+
+static double predicted(const lab_run *x, int c, const double *r, size_t i)
+{
+  return lab_run_measured(x, c, i) / x->sigma[c] - left_at(x, c, r, i);
+}
+
+/* Squares of what is left of one channel of a run, at rest, in slow and in quick motion.  In/out: sum, n  of each */
+static void add_rows(const lab_run *x, int c, const double *r, double sum[PACES], size_t n[PACES])
+{
+  size_t i;
+  for (i = REACH; i + REACH < x->n; i++) {
+    const double change = fabs(predicted(x, c, r, i + REACH) - predicted(x, c, r, i - REACH));
+    const double left = left_at(x, c, r, i);
+    const int pace = (change > slow) + (change > quick);
+    if (isnan(change + left))
+      continue;
+    sum[pace] += left * left;
+    n[pace]++;
+  }
+}
+
+/* See lab_residual_stats.  In: r  of all channels, with gaps as NaN */
+static int is_steady(const lab_unknowns *u, int channel, const double *r)
+{
+  double sum[PACES] = {0}, all = 0, least = HUGE_VAL, largest = 0;
+  size_t n[PACES] = {0}, rows = 0;
+  int e, c, k, paces = 0;
+  for (e = 0; e < u->n_runs; e++)
+    for (c = 0; c < u->run[e].n_channels; c++, r += u->run[e].n)
+      if (u->run[e].channel[c] == channel)
+        add_rows(&u->run[e], c, r, sum, n);
+  for (k = 0; k < PACES; k++) {
+    all += sum[k];
+    rows += n[k];
+    if (n[k] < FEWEST)
+      continue;
+    least = fmin(least, sum[k] / (double)n[k]);
+    largest = fmax(largest, sum[k] / (double)n[k]);
+    paces++;
+  }
+  return paces > 1 && all < most * most * (double)rows && largest < alike * alike * least;
+}
+
 static void look(const lab_unknowns *u, double *r, double *size, lab_stretch *stretch,
                  lab_residual_stats left[LAB_CHANNEL_COUNT])
 {
@@ -50,6 +101,7 @@ static void look(const lab_unknowns *u, double *r, double *size, lab_stretch *st
     const int n = gather(u, c, r, stretch);
     lab_whiteness_test(stretch, n, &left[c].whiteness);
     left[c].even = is_even(stretch, n, size);
+    left[c].steady = is_steady(u, c, r);
   }
 }
 
@@ -90,4 +142,12 @@ int lab_residual_stats_noise(const lab_residual_stats left[LAB_CHANNEL_COUNT])
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
     noise = noise && (left[c].whiteness.n == 0 || left[c].even);
   return noise;
+}
+
+int lab_residual_stats_of_sensors(const lab_residual_stats left[LAB_CHANNEL_COUNT])
+{
+  int c, all = 1;
+  for (c = 0; c < LAB_CHANNEL_COUNT; c++)
+    all = all && (left[c].whiteness.n == 0 || left[c].steady || (left[c].even && lab_is_white(&left[c].whiteness)));
+  return all;
 }

@@ -295,6 +295,10 @@ static int conclude(lab_answer *a, lab_error *error)
     return error->status;
   if (r->verdict == LAB_VERDICT_UNDECIDED && all->condition == LAB_CONDITION_AS_DECLARED)
     all->condition = LAB_CONDITION_CANNOT_TELL;
+  if (lab_report_wanders(r))
+    lab_limitation(&a->now.logs.limitations,
+                   "What is left is %s times the noise, as much at rest as in motion: noise of a sensor that wanders.",
+                   LAB_NUMBER(lab_report_in_noise(&r->after), 3));
   if (!lab_values_stand_in(r->verdict, r->fit.reduced_chi2))
     remark_moved(a);
   lab_unknowns_settle(&a->now.completed, &a->now.result.fit);

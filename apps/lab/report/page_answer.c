@@ -339,6 +339,8 @@ static void say_left(const lab_sources *t, cJSON *list)
                  "The stem sticks and slips, and no model predicts the instants of single slips: the log was compared "
                  "in windows of %zu rows, and the error row by row need not fall.",
                  r->window);
+  else if (lab_report_wanders(r))
+    lab_json_say(list, "The residual is larger than the declared noise, as much at rest as in motion: a sensor's.");
   else if (coloured > 0 && r->window == 0 && (r->verdict == LAB_VERDICT_NONE || r->verdict == LAB_VERDICT_EFFECT))
     lab_json_say(list, "The residual is no larger than noise, but not white on %d of %d channels.", coloured,
                  t->figures->table.n_channels);

@@ -535,6 +535,14 @@ int lab_report_is_ambiguous(const lab_search_result *r)
   return !r->cut_short && !r->is_far && r->n_found > 0 && may_leave_noise(r);
 }
 
+int lab_report_wanders(const lab_search_result *r)
+{
+  static const double much = 1.05; /* times the noise */
+  return (r->verdict == LAB_VERDICT_NONE || r->verdict == LAB_VERDICT_EFFECT) && r->window == 0 &&
+         lab_report_in_noise(&r->after) > much && !lab_residual_stats_noise(r->left[LAB_STAGE_AFTER]) &&
+         lab_residual_stats_of_sensors(r->left[LAB_STAGE_AFTER]);
+}
+
 /* As much as is known of what is missing, where no name is. */
 static void add_undecided_cause(char *text, const lab_search_result *r)
 {

@@ -33,12 +33,13 @@ int lab_candidate_fit(lab_candidate *c, int steps, lab_error *error)
     status = error->status = LAB_NUMERIC;
   q->values = (double)c->u.n_values;
   q->bic = bic(&c->u, q->chi2);
-  q->white = q->whole = 0;
+  q->white = q->of_sensors = q->whole = 0;
   q->fitted = status == LAB_OK;
   if (q->fitted && c->u.window == 0 && !lab_is_noise(q) && q->chi2 < lab_constant(LAB_NOISE_DOUBTFUL) * q->values) {
     status = lab_unknowns_residual_stats(&c->u, left, error);
     q->fitted = status == LAB_OK;
     q->white = q->fitted && lab_residual_stats_noise(left);
+    q->of_sensors = q->fitted && lab_residual_stats_of_sensors(left);
   }
   if (q->fitted) {
     status = lab_nuisance_strain(&c->u, &q->strain, error);

@@ -189,6 +189,11 @@ static int leaves_more_than_noise(const lab_facts *f)
   return !lab_is_noise(&f->best);
 }
 
+static int leaves_what_moves(const lab_facts *f)
+{
+  return leaves_more_than_noise(f) && !f->best.of_sensors;
+}
+
 static int wants_a_term(const lab_facts *f)
 {
   return leaves_more_than_noise(f) && !f->free_term.fitted && (f->round > 0 || lab_is_poor(&f->declared, &f->best));
@@ -328,7 +333,8 @@ const lab_rule lab_rules[] = {
     {LAB_PHASE_VERDICT,
      "More than LOOP_CAUSES effects were added to a single run behind a positioner, errors of sensors apart.",
      has_too_many_causes, "`undecided`", LAB_VERDICT_UNDECIDED},
-    {LAB_PHASE_VERDICT, "More than noise is left.", leaves_more_than_noise, "`undecided`", LAB_VERDICT_UNDECIDED},
+    {LAB_PHASE_VERDICT, "More than noise is left, and not as much of it at rest as in motion.", leaves_what_moves,
+     "`undecided`", LAB_VERDICT_UNDECIDED},
     {LAB_PHASE_VERDICT, "An effect was added.", has_found, "`effect`", LAB_VERDICT_EFFECT},
     {LAB_PHASE_VERDICT, "Nothing was added.", has_found_nothing, "`none`", LAB_VERDICT_NONE},
 };

@@ -33,12 +33,13 @@ int lab_count(enum lab_constant which);
 
 typedef struct lab_quality {
   int fitted;
-  double chi2;   /* of the residuals, with priors */
-  double values; /* measured values that are fitted */
-  double bic;    /* Schwarz 1978, over the measured values; a free term costs more than an effect */
-  int white;     /* not 0: more is left than the declared noise, but it is noise */
-  int whole;     /* not 0: it was fitted with all its values, none of which was held to straight lines */
-  double strain; /* largest deviation of a declared value, over its tolerance */
+  double chi2;    /* of the residuals, with priors */
+  double values;  /* measured values that are fitted */
+  double bic;     /* Schwarz 1978, over the measured values; a free term costs more than an effect */
+  int white;      /* not 0: more is left than the declared noise, but it is noise */
+  int of_sensors; /* not 0: as much is left in motion as at rest, and less than NOISE_DOUBTFUL */
+  int whole;      /* not 0: it was fitted with all its values, none of which was held to straight lines */
+  double strain;  /* largest deviation of a declared value, over its tolerance */
 } lab_quality;
 
 /* Whether a fitted model leaves only noise: chi-square as expected of the declared noise, or white. */

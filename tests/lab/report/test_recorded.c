@@ -28,21 +28,23 @@ typedef struct recorder {
   double hum;              /* amplitude over noise, 50 Hz */
   double declared;         /* noise over what it is */
   int cuts;                /* rounds down, and takes some times that are on a step for one just before it */
+  double wander;           /* amplitude over noise of what has a memory of 40 rows, on top of it */
 } recorder;
 
-static const recorder as_declared = {"as declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 1, 0};
-static const recorder rounded = {"time rounded to 10 ms", 0.012, 0, 0.01, 0, 0, 1, 0, 0, 1, 0};
-static const recorder late = {"rows at uncertain times", 0.007, 0.003, 0, 0, 0, 1, 0, 0, 1, 0};
-static const recorder stamped = {"stamps that jitter", 0.007, 0.003, 0, 1, 0, 1, 0, 0, 1, 0};
-static const recorder ten_bits = {"10 bits, noise of a step", 0.007, 0, 0, 0, 10, 1, 0, 0, 1, 0};
-static const recorder plain_steps = {"10 bits, hardly any noise", 0.007, 0, 0, 0, 10, 0.2, 0, 0, 1, 0};
-static const recorder humming = {"hum of three times the noise", 0.005, 0, 0, 0, 0, 1, 0, 3, 1, 0};
-static const recorder coloured = {"coloured noise", 0.007, 0, 0, 0, 0, 1, 0.7, 0, 1, 0};
-static const recorder noisier = {"a third of the noise declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 1. / 3, 0};
-static const recorder quieter = {"three times the noise declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 3, 0};
-static const recorder cut = {"time cut to 20 ms", 0.05, 0, 0.02, 0, 0, 1, 0, 0, 1, 1};
+static const recorder as_declared = {"as declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0};
+static const recorder rounded = {"time rounded to 10 ms", 0.012, 0, 0.01, 0, 0, 1, 0, 0, 1, 0, 0};
+static const recorder late = {"rows at uncertain times", 0.007, 0.003, 0, 0, 0, 1, 0, 0, 1, 0, 0};
+static const recorder stamped = {"stamps that jitter", 0.007, 0.003, 0, 1, 0, 1, 0, 0, 1, 0, 0};
+static const recorder ten_bits = {"10 bits, noise of a step", 0.007, 0, 0, 0, 10, 1, 0, 0, 1, 0, 0};
+static const recorder plain_steps = {"10 bits, hardly any noise", 0.007, 0, 0, 0, 10, 0.2, 0, 0, 1, 0, 0};
+static const recorder humming = {"hum of three times the noise", 0.005, 0, 0, 0, 0, 1, 0, 3, 1, 0, 0};
+static const recorder coloured = {"coloured noise", 0.007, 0, 0, 0, 0, 1, 0.7, 0, 1, 0, 0};
+static const recorder noisier = {"a third of the noise declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 1. / 3, 0, 0};
+static const recorder quieter = {"three times the noise declared", 0.007, 0, 0, 0, 0, 1, 0, 0, 3, 0, 0};
+static const recorder cut = {"time cut to 20 ms", 0.05, 0, 0.02, 0, 0, 1, 0, 0, 1, 1, 0};
 
-static const recorder controller = {"commands at its rows, ten a second", 0.1, 0, 0, 0, 0, 1, 0, 0, 1, 0};
+static const recorder wandering = {"noise with a long memory", 0.007, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0.7};
+static const recorder controller = {"commands at its rows, ten a second", 0.1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0};
 
 /* ---- Recording ---- */
 
@@ -84,7 +86,8 @@ static void run_truth(double leak)
 static void write_log(const recorder *r)
 {
   FILE *file = fopen(scratch_path("log.csv"), "w");
-  double coloured_p = fixture_normal(&seed), coloured_x = fixture_normal(&seed);
+  static const double memory = 0.975;
+  double coloured_p = fixture_normal(&seed), coloured_x = fixture_normal(&seed), slow = 0;
   int k;
   assert_non_null(file);
   fputs("t [s],u [1],p [kPa],x [mm]\n", file);
@@ -96,7 +99,9 @@ static void write_log(const recorder *r)
     double p = at(truth.p, t), x = at(truth.x, t);
     coloured_p = r->memory * coloured_p + fresh * fixture_normal(&seed);
     coloured_x = r->memory * coloured_x + fresh * fixture_normal(&seed);
-    p = converted(p + noise_p * (r->quiet * coloured_p + swing), rig.supply, r->bits);
+    if (r->wander > 0)
+      slow = memory * slow + r->wander * sqrt(1 - memory * memory) * fixture_normal(&seed);
+    p = converted(p + noise_p * (r->quiet * coloured_p + swing + slow), rig.supply, r->bits);
     x = converted(x + noise_x * (r->quiet * coloured_x + swing), rig.stroke, r->bits);
     fprintf(file, "%.5f,%g,%.5f,%.6f\n", stamp(r, k, shown), truth.u[(int)(t / fine + 1e-6)], p * 1e-3, x * 1e3);
   }
@@ -145,8 +150,9 @@ static lab_answer *answer_to(const recorder *r)
   return find_answer();
 }
 
-static const recorder *const recorders[] = {&as_declared, &rounded,  &late,    &stamped, &ten_bits,   &plain_steps,
-                                            &humming,     &coloured, &noisier, &quieter, &controller, &cut};
+static const recorder *const recorders[] = {&as_declared, &rounded, &late,     &stamped, &ten_bits,
+                                            &plain_steps, &humming, &coloured, &noisier, &quieter,
+                                            &controller,  &cut,     &wandering};
 
 /* ---- Verdicts ---- */
 

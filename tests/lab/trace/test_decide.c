@@ -6,7 +6,7 @@
 /* A fitted model with so many values that one standard deviation of chi-square is 20. */
 static lab_quality quality(double chi2, double bic)
 {
-  const lab_quality q = {1, chi2, 200, bic, 0, 0, 0};
+  const lab_quality q = {1, chi2, 200, bic, 0, 0, 0, 0};
   return q;
 }
 
@@ -47,7 +47,7 @@ static int holds(enum lab_phase phase, int action, const lab_facts *f)
 
 TEST(test_lab_is_noise__chi_square_near_its_expectation__is_noise)
 {
-  lab_quality q = quality(200 + 6 * 20 - 1, 0), many = {1, 1.1024e6, 1e6, 0, 0, 0, 0};
+  lab_quality q = quality(200 + 6 * 20 - 1, 0), many = {1, 1.1024e6, 1e6, 0, 0, 0, 0, 0};
   assert_true(lab_is_noise(&q));
   q.chi2 += 2;
   assert_false(lab_is_noise(&q));
@@ -296,6 +296,9 @@ TEST(test_lab_decide_verdict__each_outcome__has_its_verdict)
 {
   lab_facts f = two_effects();
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNDECIDED);
+  f.best.of_sensors = 1; /* as much at rest as in motion */
+  assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_EFFECT);
+  f.best.of_sensors = 0;
   f.found_term = 1;
   assert_int_equal(lab_decide_verdict(&f), LAB_VERDICT_UNLISTED);
   f.best.chi2 = 9 * f.best.values; /* three times the noise: the term is not the answer */
