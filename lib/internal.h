@@ -124,10 +124,13 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
 void pneu_evaluate_sensors(const pneu_model *model, const pneu_state *state, const pneu_input *input,
                            const pneu_real *y, pneu_terms *terms);
 
+/* Whether event `which` of the state's mode is the edge of a positioner's dead band. */
+int pneu_is_edge(const pneu_state *state, int which);
+
 /* Rates of the packed vector but for the effects' states, from the sums. */
 void pneu_rates(const pneu_terms *terms, int mode, pneu_real *dydt);
 
-/* Whether an effect is compiled in: a constant to a compiler that optimises, which leaves out what is for it. */
+/* Whether these effects are compiled in: constants to a compiler that optimises, which leaves out what is for them. */
 static inline int pneu_has_dead_time(void)
 {
   return 0
@@ -158,8 +161,8 @@ static inline pneu_real pneu_loop_error(const pneu_model *model, pneu_real set, 
   return set - (x * (1 + model->feedback_span) + model->feedback_zero) / model->p.stroke;
 }
 
-/* Whether the command is the set position of a positioner, which has prepared its dead band: a dead time then lies in its
- * loop, and not before the model. */
+/* Whether the command is the set position of a positioner, which has prepared its dead band: a dead time then lies in
+ * its loop, and not before the model. */
 static inline int pneu_is_in_loop(const pneu_model *model, const pneu_input *input)
 {
   return pneu_has_positioner() && model->band_edge > 0 && input->set_position;

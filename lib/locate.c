@@ -46,10 +46,19 @@ static pneu_real dense_root(const pneu_model *model, const pneu_state *state, co
   return hi;
 }
 
-/* At rest between the stops an event counts once its push can be resolved; it is then dated back to its zero. A stem
- * that creeps to rest ends its slide within rounding of the balance, on either side of it. */
-static int is_masked(const pneu_model *model, const pneu_state *state, pneu_real g)
+/* Of a position [m], with room. */
+static pneu_real rounding(const pneu_model *model)
 {
+  return 20 * PNEU_EPS * model->p.stroke;
+}
+
+/* An edge counts once it is resolved. At rest between the stops an event counts once its push can be resolved; it is
+ * then dated back to its zero. A stem that creeps to rest ends its slide within rounding of the balance, on either side
+ * of it. */
+static int is_masked(const pneu_model *model, const pneu_state *state, int which, pneu_real g)
+{
+  if (pneu_is_edge(state, which))
+    return g <= rounding(model);
   return state->mode == PNEU_MODE_STUCK && g <= model->force_resolved;
 }
 
@@ -101,7 +110,7 @@ static pneu_real first_event(const pneu_model *model, const pneu_state *state, c
     count = pneu_events(model, state, input, y, g);
     for (i = 0; i < count; i++) {
       pneu_real at;
-      if (!(g[i] > 0) || is_masked(model, state, g[i]) || may_swing(model, state, i, theta))
+      if (!(g[i] > 0) || is_masked(model, state, i, g[i]) || may_swing(model, state, i, theta))
         continue;
       at = dense_root(model, state, input, work, i, theta, g[i]);
       if (at < first) {
@@ -137,7 +146,7 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
     correction = 0;
     if (slope > 0)
       correction = g1 / slope;
-    else if (g1 < 0) /* only the long step had the event */
+    else if (g1 < 0 && !(pneu_is_edge(state, *which) && g1 > -rounding(model))) /* only the long step had the event */
       return PNEU_RETRY_STATE;
     if (PNEU_M(fabs)(correction) < PNEU_EVENT_TIME)
       break;

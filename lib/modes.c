@@ -17,10 +17,19 @@ static int has_side(const pneu_state *state)
   return pneu_has_positioner() && state->side != PNEU_SIDE_UNTOLD;
 }
 
+/* Number of the stem's own events; the edge comes behind them. */
+static const unsigned char of_stem[PNEU_MODE_COUNT] = {
+    [PNEU_MODE_LOWER] = 1, [PNEU_MODE_UPPER] = 1, [PNEU_MODE_STUCK] = 2, [PNEU_MODE_UP] = 2, [PNEU_MODE_DOWN] = 2};
+
+int pneu_is_edge(const pneu_state *state, int which)
+{
+  return has_side(state) && which == of_stem[state->mode];
+}
+
 /* By how much [m] a stem at x is off its side. */
 static pneu_real off_side(const pneu_model *model, int side, const pneu_input *input, pneu_real x)
 {
-  const pneu_real error = pneu_loop_error(model, input->u + input->u_rate * input->elapsed, x);
+  const pneu_real error = pneu_loop_error(model, input->u, x);
   const pneu_real over = side == PNEU_SIDE_BELOW   ? model->dead_band - error
                          : side == PNEU_SIDE_ABOVE ? model->dead_band + error
                                                    : PNEU_M(fabs)(error) - model->dead_band;
@@ -50,11 +59,7 @@ static void pass_edge(const pneu_model *model, const pneu_input *input, pneu_sta
 
 /* ---- Events ---- */
 
-/* Number of the stem's own; that of the dead band comes behind them. */
-static const unsigned char of_stem[PNEU_MODE_COUNT] = {
-    [PNEU_MODE_LOWER] = 1, [PNEU_MODE_UPPER] = 1, [PNEU_MODE_STUCK] = 2, [PNEU_MODE_UP] = 2, [PNEU_MODE_DOWN] = 2};
-
-/* Returns: of_stem, 0 where the state is not physical */
+/* Those of the stem.  Returns: of_stem, 0 where the state is not physical */
 static int stem_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                        pneu_real *g)
 {
@@ -174,7 +179,7 @@ static void switch_mode(const pneu_model *model, const pneu_input *input, int wh
 
 void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state)
 {
-  if (has_side(state) && which == of_stem[state->mode])
+  if (pneu_is_edge(state, which))
     pass_edge(model, input, state);
   else
     switch_mode(model, input, which, state);

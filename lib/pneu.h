@@ -296,7 +296,7 @@ typedef struct pneu_state {
   pneu_real v;                     /* [m/s] stem velocity */
   pneu_real extra[PNEU_EXTRA_MAX]; /* states of the active effects, see pneu_model.state_of; the clock */
   int mode;                        /* enum pneu_mode */
-  int side;                        /* enum pneu_side, which a step keeps; pneu_settle and pneu_switch tell it */
+  int side;                        /* enum pneu_side, by pneu_settle and pneu_switch; constant within a step */
 } pneu_state;
 
 /* Forms of an effect: one that it always has, and one that it may do without. */
@@ -475,7 +475,8 @@ typedef struct pneu_step_view {
 } pneu_step_view;
 
 /* Called after each accepted step and each event; any pointer may be NULL. A result other than 0 stops the run with
- * PNEU_E_STOPPED: the state is then that at the start of the step shown, or that after the event. */
+ * PNEU_E_STOPPED: the state is then that at the start of the step shown, or that after the event; an edge of a dead band
+ * leaves the mode as it was. */
 typedef struct pneu_observer {
   int (*step)(void *context, const pneu_step_view *view);
   int (*event)(void *context, pneu_real t, const pneu_state *state, int mode_before);
@@ -630,8 +631,8 @@ int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_inp
 void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state);
 
 /* Side of the dead band, and mode that the balance of forces asks for, at the present instant, after an input has
- * jumped. A stem that
- * moves goes on, or, if into a stop that it has reached, is at rest there; a driven one takes the input's rate as v.
+ * jumped. A stem that moves goes on, or, if into a stop that it has reached, is at rest there; a driven one takes the
+ * input's rate as v.
  * At rest a state that is not physical (absolute pressure, temperature or volume <= 0) counts as stuck.
  * In/out: state, side, mode and v */
 void pneu_settle(const pneu_model *model, const pneu_input *input, pneu_state *state);

@@ -45,8 +45,8 @@ static const words output_words[FMU_OUTPUT_COUNT] = {
 static const words event_words[FMU_INDICATOR_COUNT] = {
     {"event[1]", NULL, "first event function of the stem's mode: break-away upwards, reversal, upper stop"},
     {"event[2]", NULL, "second event function of the stem's mode: break-away downwards, a stop"},
-    {"event[3]", NULL, "the last of them, where a positioner has a dead band: beyond its edge"},
-    {"event[4]", NULL, "above 0 where flow has begun or ceased to choke"}};
+    {"event[3]", NULL, "above 0 where flow has begun or ceased to choke"},
+    {"event[4]", NULL, "the edge of a positioner's dead band"}};
 
 static const char *const rate_units[FMU_STATE_EFFECT] = {"Pa/s", "K/s", "m/s", "m/s2"};
 

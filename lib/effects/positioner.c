@@ -10,9 +10,9 @@
  * is u itself, and I stands still. The rate of I where u is clipped follows a straight line over CLIPPED of the
  * opening. u jumps at the edge of the dead band, an event that ends a step (pneu_state.side): a stem that a leak pushes
  * out of the band stops by its friction where it is, and air is let in until p has risen by the friction band, 2 F/A;
- * then the cycle begins again. An opening that rises over 0.01 % of the stroke would hold the stem there, and p would be off
- * by up to that. Along a ramp of the set position u does rise, over EDGE of the stroke: the stem would go in and out
- * of the band ninety times a second, which takes 15 times the steps for at most 1 um of 38 mm of travel. Without
+ * then the cycle begins again. An opening that rises over 0.01 % of the stroke would hold the stem there, and p would
+ * be off by up to that. Along a ramp of the set position u does rise, over EDGE of the stroke: the stem would go in and
+ * out of the band ninety times a second, which takes 15 times the steps for at most 1 um of 38 mm of travel. Without
  * friction it does so everywhere. A short stroke goes in and out all the same: 10 mm at 0.3 mm/s sixty times a second
  * by 4 um, up to an edge of 3e-4 of it (pneu_model.band_edge, then about the band's own), with which the stem is where
  * it is in the mean to 0.01 um.

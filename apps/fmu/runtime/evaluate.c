@@ -7,6 +7,8 @@
 #define SPEED_MARGIN  1e-10 /* of full speed */
 #define TRAVEL_MARGIN 1e-12 /* of the stroke */
 
+enum { EDGE = PNEU_EVENT_MAX - 1 }; /* event function of a dead band's edge, here, whatever the mode */
+
 /* An input on its line, now. */
 static double on_line(const fmu_memory *m, int input, int rate)
 {
@@ -86,7 +88,8 @@ void fmu_pass_to(fmu_instance *i, double time)
     i->m.state.extra[i->model.clock] = time;
 }
 
-/* The event functions of the present mode; those that it does not have are far below 0. */
+/* The event functions of the present mode, the edge of a dead band as the last of all; those that it does not have are
+ * far below 0.  Returns: the number that the library has */
 static int event_functions(const fmu_instance *i, double *g)
 {
   pneu_state state = i->m.state;
@@ -99,6 +102,10 @@ static int event_functions(const fmu_instance *i, double *g)
   n = pneu_events(&i->model, &state, &input, y, g);
   for (k = n; k < PNEU_EVENT_MAX; k++)
     g[k] = -1;
+  if (n > 0 && n <= EDGE && state.side != PNEU_SIDE_UNTOLD) {
+    g[EDGE] = g[n - 1];
+    g[n - 1] = -1;
+  }
   return n;
 }
 
@@ -112,46 +119,46 @@ static int is_choked(const fmu_instance *i)
   return pneu_observe(&i->model, &state, &input, &out) == PNEU_OK ? out.choked : i->m.choked;
 }
 
-/* What event function k of n measures decides its margin: forces at rest, else speed and then travel; the last, where
- * there is a side of a dead band, travel too. */
-static double margin(const fmu_instance *i, int k, int n)
+/* What event function k measures decides its margin: forces at rest, else speed and then travel; of the edge, travel.
+ */
+static double margin(const fmu_instance *i, int k)
 {
   const int mode = i->m.state.mode, slides = mode == PNEU_MODE_UP || mode == PNEU_MODE_DOWN;
   if (slides && k == 0)
     return SPEED_MARGIN * i->model.scale[3];
-  if (slides || (i->m.state.side != PNEU_SIDE_UNTOLD && k == n - 1))
-    return TRAVEL_MARGIN * i->model.scale[2];
-  return i->model.force_noise;
+  return slides || k == EDGE ? TRAVEL_MARGIN * i->model.scale[2] : i->model.force_noise;
 }
 
 void fmu_arm(fmu_instance *i)
 {
   double g[PNEU_EVENT_MAX];
-  const int n = event_functions(i, g);
   int k;
+  event_functions(i, g);
   for (k = 0; k < PNEU_EVENT_MAX; k++)
-    i->m.threshold[k] = fmax(g[k], 0) + margin(i, k, n);
+    i->m.threshold[k] = fmax(g[k], 0) + margin(i, k);
   i->m.choked = is_choked(i);
 }
 
 void fmu_indicators(const fmu_instance *i, double *z)
 {
+  double g[PNEU_EVENT_MAX];
   int k;
-  event_functions(i, z);
+  event_functions(i, g);
   for (k = 0; k < PNEU_EVENT_MAX; k++)
-    z[k] -= i->m.threshold[k];
+    z[k < EDGE ? k : k + 1] = g[k] - i->m.threshold[k];
   /* the library tells whether flow is choked, not how far from it: a step, which root finders bisect */
-  z[PNEU_EVENT_MAX] = is_choked(i) == i->m.choked ? -1 : 1;
+  z[EDGE] = is_choked(i) == i->m.choked ? -1 : 1;
 }
 
 int fmu_fired(const fmu_instance *i)
 {
   double g[PNEU_EVENT_MAX];
-  int k, n = event_functions(i, g);
-  for (k = n - 1; k >= 0; k--) /* a stop before a reversal: who is beyond the stop has hit it */
+  const int n = event_functions(i, g);
+  int k;
+  for (k = EDGE - 1; k >= 0; k--) /* a stop before a reversal: who is beyond the stop has hit it */
     if (g[k] >= i->m.threshold[k])
       return k;
-  return -1;
+  return g[EDGE] >= i->m.threshold[EDGE] ? n - 1 : -1;
 }
 
 int fmu_rates(const fmu_instance *i, double *rate)

@@ -40,7 +40,7 @@ enum fmu_output {
   FMU_OUTPUT_COUNT
 };
 
-/* Event indicators: those of pneu_events, and whether the flow is choked. */
+/* Event indicators: those of pneu_events, and, before the edge of a dead band, whether the flow is choked. */
 enum { FMU_INDICATOR_COUNT = PNEU_EVENT_MAX + 1 };
 
 /* Value references; the same in every FMU of ours. */

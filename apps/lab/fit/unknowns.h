@@ -263,7 +263,7 @@ typedef struct lab_residual_stats {
                               channel is not measured */
   int even;                /* not 0: as large everywhere, and no more than one and a half times as large as declared */
   int steady;              /* not 0: as large in quick and in slow motion as at rest, and no more than that: a sensor's,
-                              whatever its memory, for what a model lacks shows when something moves */
+                              whatever its memory, for what a model lacks shows in motion as a rule */
 } lab_residual_stats;
 
 /* Look at what is left, row by row: u->window is 0.  Out: left  Returns: as lab_unknowns_residuals. */

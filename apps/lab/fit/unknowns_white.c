@@ -45,7 +45,8 @@ static int is_even(const lab_stretch *stretch, int n, double *size)
   return m > 0 && rms < most && lab_median(size, m) / median_of_size > even * rms;
 }
 
-/* What is left of a value, over the noise: a row whose time is uncertain counts for less where it moves. */
+/* What is left of a value, over the noise: a row whose time is uncertain counts for less where it moves. Of noise that
+ * is whitened nothing is told. */
 static double left_at(const lab_run *x, int c, const double *r, size_t i)
 {
   return r[i] / x->weight[(size_t)c * x->n + i];
@@ -79,7 +80,9 @@ static int is_steady(const lab_unknowns *u, int channel, const double *r)
   int e, c, k, paces = 0;
   for (e = 0; e < u->n_runs; e++)
     for (c = 0; c < u->run[e].n_channels; c++, r += u->run[e].n)
-      if (u->run[e].channel[c] == channel)
+      if (u->run[e].channel[c] == channel && u->run[e].colour[c].memory != 0)
+        return 0;
+      else if (u->run[e].channel[c] == channel)
         add_rows(&u->run[e], c, r, sum, n);
   for (k = 0; k < PACES; k++) {
     all += sum[k];
@@ -90,7 +93,7 @@ static int is_steady(const lab_unknowns *u, int channel, const double *r)
     largest = fmax(largest, sum[k] / (double)n[k]);
     paces++;
   }
-  return paces > 1 && all < most * most * (double)rows && largest < alike * alike * least;
+  return n[0] >= FEWEST && paces > 1 && all < most * most * (double)rows && largest < alike * alike * least;
 }
 
 static void look(const lab_unknowns *u, double *r, double *size, lab_stretch *stretch,

@@ -124,7 +124,8 @@ int lab_report_is_unfinished(const lab_search_result *r);
 /* Whether what the candidates leave may be noise, and others may leave no more: nothing is named for that. */
 int lab_report_is_ambiguous(const lab_search_result *r);
 
-/* Whether more is left than the declared noise, by what the search takes for a sensor's: as much at rest as in motion. */
+/* Whether more is left than the declared noise, by what the search takes for a sensor's: as much at rest as in motion.
+ */
 int lab_report_wanders(const lab_search_result *r);
 
 void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT]);

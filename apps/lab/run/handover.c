@@ -16,9 +16,11 @@ static void begin_lags(const pneu_model *from, const pneu_model *to, const pneu_
 {
   enum { COUNT = 2 };
   static const char *const lags[COUNT] = {"dead_time", "transducer_lag"};
+  pneu_state at = *before;
   pneu_output now;
   int k, i;
-  if (pneu_observe(from, before, input, &now) != PNEU_OK)
+  pneu_settle(from, input, &at);
+  if (pneu_observe(from, &at, input, &now) != PNEU_OK)
     return;
   for (k = 0; k < COUNT; k++) {
     const int effect = pneu_effect_find(lags[k]);

@@ -203,8 +203,9 @@ typedef struct contest {
   double start, until;             /* [s] of CPU time */
 } contest;
 
-/* What is found beside values exactly as declared, and whether that explains the logs; not asked once the time is
- * spent. In:      u        the declared model, fitted In/out:  tolerant it within its tolerances, fitted */
+/* What is found beside values exactly as declared, and whether that explains the logs. Not asked once the time is spent.
+ * In:      u         the declared model, fitted
+ * In/out:  tolerant  it within its tolerances, fitted */
 static int search_beside(const lab_unknowns *u, const lab_search_options *options, contest *c, lab_finding *tolerant,
                          lab_error *error)
 {
