@@ -127,12 +127,16 @@ void lab_unknowns_stay_near(lab_unknowns *u, double tolerances)
 }
 
 /* A stem without damping oscillates for long after each move, which no valve does, and takes a hundred times as long to
- * simulate: damping stays above a share of what is declared, by judgement. */
-static void keep_damped(const lab_unknowns *u, lab_unknown *x)
+ * simulate: damping stays above a share of what is declared. A positioner that opens fully at any error does so too:
+ * its gain stays below a multiple. Both by judgement. */
+static void keep_usual(const lab_unknowns *u, lab_unknown *x)
 {
-  static const double least = 0.02;
+  static const double least = 0.02, most = 10;
+  pneu_params declared = u->declared;
   if (x->index == PNEU_PARAM_damping)
     x->lower = fmax(x->lower, least * (double)u->declared.damping);
+  if (x->index == pneu_param_find("positioner.gain"))
+    x->upper = fmin(x->upper, most * (double)*pneu_param_at(&declared, x->index));
 }
 
 int lab_unknowns_leave_damping(lab_unknowns *u)
@@ -159,7 +163,7 @@ int lab_unknowns_add(lab_unknowns *u, int param, double value, lab_error *error)
     return no_room(error);
   x->spread = 0;
   describe_param(x, param);
-  keep_damped(u, x);
+  keep_usual(u, x);
   if (u->most_off > 0)
     limit(u, x);
   x->value = x->first = fmin(fmax(value, x->lower), x->upper);

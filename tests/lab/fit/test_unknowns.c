@@ -246,6 +246,22 @@ TEST(test_lab_unknowns_stay_near__far_more_than_declared__is_ten_tolerances_off)
   close_all();
 }
 
+/* What the fit would find simulates for long and is no valve: no damping, a positioner that opens fully at any error.
+ */
+TEST(test_lab_unknowns_add__damping_and_gain__stay_near_what_is_usual)
+{
+  const int gain = pneu_param_find("positioner.gain");
+  declare();
+  *pneu_param_at(&rig.params, gain) = 20;
+  open_empty();
+  succeed(lab_unknowns_add(&u, gain, 500, &error));
+  assert_close(u.unknown[u.n - 1].value, 200, 0, 1e-12);
+  assert_close(u.unknown[u.n - 1].upper, 200, 0, 1e-12);
+  succeed(lab_unknowns_add(&u, PNEU_PARAM_damping, 0, &error));
+  assert_close(u.unknown[u.n - 1].value, 0.02 * (double)rig.params.damping, 0, 1e-12);
+  close_all();
+}
+
 /* A value that is fitted or held, as a multiple of the declared one. */
 static void put(int param, double times)
 {
