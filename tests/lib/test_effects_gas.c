@@ -974,6 +974,7 @@ FOOTPRINT(positioner_dead_band, small_errors__open_nothing)
   assert_close(asked(&p, 0.5, 0.529), 0, 0, 0);
   assert_close(asked(&p, 0.5, 0.469), 0.62, TOL(1e-12, 1e-5), 0);
   assert_close(asked(&p, 0.5, 0.531), -0.62, TOL(1e-12, 1e-5), 0);
+  assert_close(asked_on_ramp(&p, 0.5, 0.47, 0.1), 0, TOL(1e-9, 0.01), 0); /* at its edge, which rises from there */
 }
 
 /* Between two orifices in series the chamber stands where [B, Eq. 8] gives both the same flow: f^2 P_s (P_s - P) =
