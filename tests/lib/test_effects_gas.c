@@ -882,8 +882,9 @@ static double asked_on_ramp(const pneu_params *p, double set, double share, doub
 {
   const pneu_model m = fixture_model(p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
   pneu_input input = set_position(&m, set);
-  const pneu_state s = fixture_rest(&m, 1e5, share * (double)p->stroke, &input);
+  pneu_state s;
   input.u_rate = (pneu_real)rate;
+  s = fixture_rest(&m, 1e5, share * (double)p->stroke, &input);
   return fixture_look(&m, &s, &input).opening;
 }
 
