@@ -124,9 +124,6 @@ int pneu_evaluate(const pneu_model *model, const pneu_state *state, const pneu_i
 void pneu_evaluate_sensors(const pneu_model *model, const pneu_state *state, const pneu_input *input,
                            const pneu_real *y, pneu_terms *terms);
 
-/* Whether event `which` of the state's mode is the edge of a positioner's dead band. */
-int pneu_is_edge(const pneu_state *state, int which);
-
 /* Rates of the packed vector but for the effects' states, from the sums. */
 void pneu_rates(const pneu_terms *terms, int mode, pneu_real *dydt);
 

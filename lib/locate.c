@@ -57,7 +57,7 @@ static pneu_real rounding(const pneu_model *model)
  * of it. */
 static int is_masked(const pneu_model *model, const pneu_state *state, int which, pneu_real g)
 {
-  if (pneu_is_edge(state, which))
+  if (which == PNEU_EVENT_EDGE)
     return g <= rounding(model);
   return state->mode == PNEU_MODE_STUCK && g <= model->force_resolved;
 }
@@ -89,7 +89,8 @@ static int only_slides(const pneu_model *model, const pneu_state *state, const p
   pneu_real start[PNEU_EVENT_MAX], end[PNEU_EVENT_MAX];
   const int n = pneu_events(model, state, input, work->y0, start);
   pneu_events(model, state, input, work->y1, end);
-  return start[0] < -v && end[0] < -v && start[1] < -x && end[1] < -x && (n < 3 || (start[2] < -x && end[2] < -x));
+  return start[0] < -v && end[0] < -v && start[1] < -x && end[1] < -x &&
+         (n <= PNEU_EVENT_EDGE || (start[PNEU_EVENT_EDGE] < -x && end[PNEU_EVENT_EDGE] < -x));
 }
 
 /* Earliest event inside the step, judged at quarters of it while moving and at halves at rest.  Returns: theta; Out:
@@ -146,7 +147,7 @@ int pneu_locate(const pneu_model *model, const pneu_state *state, const pneu_inp
     correction = 0;
     if (slope > 0)
       correction = g1 / slope;
-    else if (g1 < 0 && !(pneu_is_edge(state, *which) && g1 > -rounding(model))) /* only the long step had the event */
+    else if (g1 < 0 && !(*which == PNEU_EVENT_EDGE && g1 > -rounding(model))) /* only the long step had the event */
       return PNEU_RETRY_STATE;
     if (PNEU_M(fabs)(correction) < PNEU_EVENT_TIME)
       break;

@@ -17,15 +17,6 @@ static int has_side(const pneu_state *state)
   return pneu_has_positioner() && state->side != PNEU_SIDE_UNTOLD;
 }
 
-/* Number of the stem's own events; the edge comes behind them. */
-static const unsigned char of_stem[PNEU_MODE_COUNT] = {
-    [PNEU_MODE_LOWER] = 1, [PNEU_MODE_UPPER] = 1, [PNEU_MODE_STUCK] = 2, [PNEU_MODE_UP] = 2, [PNEU_MODE_DOWN] = 2};
-
-int pneu_is_edge(const pneu_state *state, int which)
-{
-  return has_side(state) && which == of_stem[state->mode];
-}
-
 /* By how much [m] a stem at x is off its side. */
 static pneu_real off_side(const pneu_model *model, int side, const pneu_input *input, pneu_real x)
 {
@@ -59,7 +50,7 @@ static void pass_edge(const pneu_model *model, const pneu_input *input, pneu_sta
 
 /* ---- Events ---- */
 
-/* Those of the stem.  Returns: of_stem, 0 where the state is not physical */
+/* Those of the stem.  Returns: their number */
 static int stem_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                        pneu_real *g)
 {
@@ -86,15 +77,18 @@ static int stem_events(const pneu_model *model, const pneu_state *state, const p
   rest_balance(&t, &force, &level);
   g[0] = state->mode == PNEU_MODE_UPPER ? -force - level : force - level;
   g[1] = -force - level;
-  return of_stem[state->mode];
+  return state->mode == PNEU_MODE_STUCK ? 2 : 1;
 }
 
 int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                 pneu_real *g)
 {
-  const int n = stem_events(model, state, input, y, g), i_x = model->n_gas;
-  if (!has_side(state) || n < of_stem[state->mode])
+  const int i_x = model->n_gas;
+  int n = stem_events(model, state, input, y, g);
+  if (!has_side(state))
     return n;
+  while (n < PNEU_EVENT_EDGE)
+    g[n++] = -1;
   g[n] = off_side(model, state->side, input, pneu_dimension(model, state->mode) > i_x ? y[i_x] : state->x);
   return n + 1;
 }
@@ -179,7 +173,7 @@ static void switch_mode(const pneu_model *model, const pneu_input *input, int wh
 
 void pneu_switch(const pneu_model *model, const pneu_input *input, int which, pneu_state *state)
 {
-  if (pneu_is_edge(state, which))
+  if (has_side(state) && which == PNEU_EVENT_EDGE)
     pass_edge(model, input, state);
   else
     switch_mode(model, input, which, state);

@@ -606,11 +606,12 @@ int pneu_jacobian(const pneu_model *model, const pneu_state *state, const pneu_i
 
 /* ---- Modes and events: one set for every integrator ---- */
 
-/* Events at once; parts of a pneu_step, those near the end that are coarse, and the last, in which the stem is held;
- * repeats by which the end of one is located; evaluations of the right-hand
- * side in a pneu_step, the Jacobian's differences and looks for events apart. */
+/* Events at once, and the one that is the edge of a positioner's dead band; parts of a pneu_step, those near the end
+ * that are coarse, and the last, in which the stem is held; repeats by which the end of one is located; evaluations of
+ * the right-hand side in a pneu_step, the Jacobian's differences and looks for events apart. */
 enum {
   PNEU_EVENT_MAX = 3,
+  PNEU_EVENT_EDGE = PNEU_EVENT_MAX - 1,
   PNEU_PARTS_MAX = 64,
   PNEU_PARTS_COARSE = 28,
   PNEU_PARTS_HELD = 12,
@@ -621,8 +622,9 @@ enum {
 /* Event functions of the state's mode: an event happens where g rises through 0.
  * Out:     g  as many as returned, at most PNEU_EVENT_MAX: force above break-away [N] at rest,
  *             velocity [m/s] against the mode's, with bristles beyond what is resolved, and distance beyond the stop
- *             [m] while sliding; last, where the state has a side, distance beyond the edge of the dead band [m]
- * Returns: their number; 0 for a vessel, and at rest where the state is not physical. */
+ *             [m] while sliding; PNEU_EVENT_EDGE, where the state has a side, distance beyond the edge of the dead band
+ *             [m], and -1 in the place of those before it that the mode has not
+ * Returns: their number; without a side 0 driven, for a vessel, and at rest where the state is not physical. */
 int pneu_events(const pneu_model *model, const pneu_state *state, const pneu_input *input, const pneu_real *y,
                 pneu_real *g);
 

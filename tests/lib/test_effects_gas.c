@@ -1123,6 +1123,16 @@ TEST(test_positioner__leak_at_the_dead_band__pressure_swings_over_the_friction_b
   assert_close(high - low, band, 0, 0.03);
 }
 
+/* A loop without dry friction, with a dead band. */
+static pneu_model banded(double band)
+{
+  pneu_params p;
+  fixture_need("positioner");
+  p = positioned(20);
+  fixture_set(&p, "dead_band", band);
+  return fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
+}
+
 /* The edges that a stem has passed. */
 typedef struct edges {
   int n, side;
@@ -1148,16 +1158,10 @@ TEST(test_pneu_run__dead_band__steps_end_on_its_edges)
   edges e = {.side = PNEU_SIDE_BELOW};
   const pneu_observer observer = {NULL, note_edge, &e};
   const pneu_options options = fixture_options(TOL(1e-7, 1e-4));
-  pneu_params p = positioned(20);
+  const pneu_model m = banded(0.01);
+  const pneu_input input = set_position(&m, 0.5);
+  pneu_state s = fixture_rest(&m, 0, 0, &input);
   pneu_workspace work = {0};
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
-  fixture_set(&p, "dead_band", 0.01);
-  fixture_need("positioner");
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  input = set_position(&m, 0.5);
-  s = fixture_rest(&m, 0, 0, &input);
   assert_int_equal(pneu_run(&m, &s, &input, 60, &options, &observer, &work), PNEU_OK);
   assert_between(e.n, 1, 1000);
   assert_close(e.furthest, 0, TOL(1e-9, 1e-4), 0);
@@ -1175,16 +1179,10 @@ TEST(test_pneu_side__set_position_jumps_or_ramps__is_told_again)
               {0.1, 0, PNEU_SIDE_ABOVE},
               {0.5, 0.1, PNEU_SIDE_UNTOLD},
               {0.29, 0, PNEU_SIDE_WITHIN}};
-  pneu_params p = positioned(20);
-  pneu_model m;
-  pneu_input input;
-  pneu_state s;
+  const pneu_model m = banded(0.02);
+  pneu_input input = set_position(&m, 0.3);
+  const pneu_state s = fixture_rest(&m, 0, 0.006, &input);
   int i;
-  fixture_set(&p, "dead_band", 0.02);
-  fixture_need("positioner");
-  m = fixture_model(&p, PNEU_GAS_ISOTHERMAL, PNEU_FLOW_CHOKED);
-  input = set_position(&m, 0.3);
-  s = fixture_rest(&m, 0, 0.006, &input);
   for (i = 0; i < COUNT(told); i++) {
     pneu_state after = s;
     pneu_real y[PNEU_STATE_MAX], g[PNEU_EVENT_MAX];

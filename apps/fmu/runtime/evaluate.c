@@ -7,8 +7,6 @@
 #define SPEED_MARGIN  1e-10 /* of full speed */
 #define TRAVEL_MARGIN 1e-12 /* of the stroke */
 
-enum { EDGE = PNEU_EVENT_MAX - 1 }; /* event function of a dead band's edge, here, whatever the mode */
-
 /* An input on its line, now. */
 static double on_line(const fmu_memory *m, int input, int rate)
 {
@@ -88,9 +86,8 @@ void fmu_pass_to(fmu_instance *i, double time)
     i->m.state.extra[i->model.clock] = time;
 }
 
-/* The event functions of the present mode, the edge of a dead band as the last of all; those that it does not have are
- * far below 0.  Returns: the number that the library has */
-static int event_functions(const fmu_instance *i, double *g)
+/* The event functions of the present mode; those that it does not have are far below 0. */
+static void event_functions(const fmu_instance *i, double *g)
 {
   pneu_state state = i->m.state;
   pneu_input input;
@@ -102,11 +99,6 @@ static int event_functions(const fmu_instance *i, double *g)
   n = pneu_events(&i->model, &state, &input, y, g);
   for (k = n; k < PNEU_EVENT_MAX; k++)
     g[k] = -1;
-  if (n > 0 && n <= EDGE && state.side != PNEU_SIDE_UNTOLD) {
-    g[EDGE] = g[n - 1];
-    g[n - 1] = -1;
-  }
-  return n;
 }
 
 static int is_choked(const fmu_instance *i)
@@ -126,7 +118,7 @@ static double margin(const fmu_instance *i, int k)
   const int mode = i->m.state.mode, slides = mode == PNEU_MODE_UP || mode == PNEU_MODE_DOWN;
   if (slides && k == 0)
     return SPEED_MARGIN * i->model.scale[3];
-  return slides || k == EDGE ? TRAVEL_MARGIN * i->model.scale[2] : i->model.force_noise;
+  return slides || k == PNEU_EVENT_EDGE ? TRAVEL_MARGIN * i->model.scale[2] : i->model.force_noise;
 }
 
 void fmu_arm(fmu_instance *i)
@@ -145,20 +137,20 @@ void fmu_indicators(const fmu_instance *i, double *z)
   int k;
   event_functions(i, g);
   for (k = 0; k < PNEU_EVENT_MAX; k++)
-    z[k < EDGE ? k : k + 1] = g[k] - i->m.threshold[k];
+    z[k < PNEU_EVENT_EDGE ? k : k + 1] = g[k] - i->m.threshold[k];
   /* the library tells whether flow is choked, not how far from it: a step, which root finders bisect */
-  z[EDGE] = is_choked(i) == i->m.choked ? -1 : 1;
+  z[PNEU_EVENT_EDGE] = is_choked(i) == i->m.choked ? -1 : 1;
 }
 
 int fmu_fired(const fmu_instance *i)
 {
   double g[PNEU_EVENT_MAX];
-  const int n = event_functions(i, g);
   int k;
-  for (k = EDGE - 1; k >= 0; k--) /* a stop before a reversal: who is beyond the stop has hit it */
+  event_functions(i, g);
+  for (k = PNEU_EVENT_EDGE - 1; k >= 0; k--) /* a stop before a reversal: who is beyond the stop has hit it */
     if (g[k] >= i->m.threshold[k])
       return k;
-  return g[EDGE] >= i->m.threshold[EDGE] ? n - 1 : -1;
+  return g[PNEU_EVENT_EDGE] >= i->m.threshold[PNEU_EVENT_EDGE] ? PNEU_EVENT_EDGE : -1;
 }
 
 int fmu_rates(const fmu_instance *i, double *rate)

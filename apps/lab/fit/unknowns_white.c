@@ -139,11 +139,16 @@ int lab_residual_stats_white(const lab_residual_stats left[LAB_CHANNEL_COUNT])
   return white;
 }
 
+static int is_noise(const lab_residual_stats *left)
+{
+  return left->whiteness.n == 0 || (left->even && lab_is_white(&left->whiteness));
+}
+
 int lab_residual_stats_noise(const lab_residual_stats left[LAB_CHANNEL_COUNT])
 {
-  int c, noise = lab_residual_stats_white(left);
+  int c, noise = 1;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    noise = noise && (left[c].whiteness.n == 0 || left[c].even);
+    noise = noise && is_noise(&left[c]);
   return noise;
 }
 
@@ -151,6 +156,6 @@ int lab_residual_stats_of_sensors(const lab_residual_stats left[LAB_CHANNEL_COUN
 {
   int c, all = 1;
   for (c = 0; c < LAB_CHANNEL_COUNT; c++)
-    all = all && (left[c].whiteness.n == 0 || left[c].steady || (left[c].even && lab_is_white(&left[c].whiteness)));
+    all = all && (is_noise(&left[c]) || left[c].steady);
   return all;
 }

@@ -537,9 +537,9 @@ int lab_report_is_ambiguous(const lab_search_result *r)
 
 int lab_report_wanders(const lab_search_result *r)
 {
-  static const double much = 1.05; /* times the noise */
+  const double left = lab_report_in_noise(&r->after);
   return (r->verdict == LAB_VERDICT_NONE || r->verdict == LAB_VERDICT_EFFECT) && r->window == 0 &&
-         lab_report_in_noise(&r->after) > much && !lab_residual_stats_noise(r->left[LAB_STAGE_AFTER]) &&
+         left * left > lab_constant(LAB_NOISE_SLIP) && !lab_residual_stats_noise(r->left[LAB_STAGE_AFTER]) &&
          lab_residual_stats_of_sensors(r->left[LAB_STAGE_AFTER]);
 }
 

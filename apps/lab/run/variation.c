@@ -510,7 +510,7 @@ void lab_variations_event(struct lab_variations *v, const pneu_state *after)
     return;
   pneu_pack(v->model, &v->state[2], y);
   n_events = pneu_events(v->model, &v->state[2], &v->at[2], y, g);
-  which = is_edge ? n_events - 1 : event_of(v, g, n_events - (v->side != PNEU_SIDE_UNTOLD));
+  which = is_edge ? PNEU_EVENT_EDGE : event_of(v, g, n_events);
   rate = rate_of_event(v, which, g);
   is_lost = n_events == 0 || rates_at(v->model, after, &v->at[2], f) != PNEU_OK;
   for (i = 0; i < v->n; i++) {
