@@ -11,16 +11,15 @@
  * opening. u jumps at the edge of the dead band, an event that ends a step (pneu_state.side): a stem that a leak pushes
  * out of the band stops by its friction where it is, and air is let in until p has risen by the friction band, 2 F/A;
  * then the cycle begins again. An opening that rises over 0.01 % of the stroke would hold the stem there, and p would
- * be off by up to that. Along a ramp of the set position u does rise, over EDGE of the stroke: the stem would go in and
- * out of the band ninety times a second, which takes 15 times the steps for at most 1 um of 38 mm of travel. Without
- * friction it does so everywhere. A short stroke goes in and out all the same: 10 mm at 0.3 mm/s sixty times a second
- * by 4 um, up to an edge of 3e-4 of it (pneu_model.band_edge, then about the band's own), with which the stem is where
- * it is in the mean to 0.01 um.
+ * be off by up to that. Along a ramp of the set position u does rise, over usual_edge of the stroke: the stem would go
+ * in and out of the band ninety times a second, which takes 15 times the steps for at most 1 um of 38 mm of travel.
+ * Without friction it does so everywhere. A short stroke goes in and out all the same: 10 mm at 0.3 mm/s sixty times a
+ * second by 4 um, up to an edge of 3e-4 of it (pneu_model.band_edge, then about the band's own), with which the stem is
+ * where it is in the mean to 0.01 um.
  *
  * Size: gain 10 to 50, dead band 0.1 to 1 %, cut-offs 0.5 and 99 to 99.5 %. */
 #include "../internal.h"
 
-#define EDGE     PNEU_C(3e-5) /* of the stroke */
 #define CLIPPED  PNEU_C(1e-3)
 #define ROUNDING PNEU_C(1e-6) /* of the stroke: by so much a set position that has come along a ramp may be off */
 
@@ -38,6 +37,9 @@ static const pneu_param_info params[] = {
     {"integral_start", "1", -1, 1, 0, 0, 1,
      "integral of the error, in shares of the stroke, where a state of rest begins"}};
 
+/* Of the stroke: a constant in memory, for x87 compares a literal to more digits than a model holds. */
+static const pneu_real usual_edge = PNEU_C(3e-5);
+
 static pneu_real clip(pneu_real value, pneu_real low, pneu_real high)
 {
   return value < low ? low : value > high ? high : value;
@@ -51,7 +53,7 @@ static pneu_real outside(const pneu_terms *t, pneu_real error)
     return 1;
   if (t->side != PNEU_SIDE_UNTOLD)
     return t->side != PNEU_SIDE_WITHIN;
-  return t->input->u_rate != 0 ? clip((edge > EDGE ? PNEU_C(0.5) : 0) + beyond / edge, 0, 1) : beyond > 0;
+  return t->input->u_rate != 0 ? clip((edge > usual_edge ? PNEU_C(0.5) : 0) + beyond / edge, 0, 1) : beyond > 0;
 }
 
 static void add(const pneu_real *param, const pneu_real *state, pneu_terms *t, pneu_real *rate)
@@ -84,7 +86,7 @@ static void start(const pneu_real *param, const pneu_terms *t, pneu_real *state)
 
 static void prepare(pneu_model *model, const pneu_real *param)
 {
-  model->band_edge = EDGE;
+  model->band_edge = usual_edge;
   model->dead_band += param[DEAD_BAND];
 }
 

@@ -203,7 +203,7 @@ typedef struct contest {
   double start, until;             /* [s] of CPU time */
 } contest;
 
-/* What is found beside values exactly as declared, and whether that explains the logs. Not asked once the time is spent.
+/* What is found beside values exactly as declared, and whether that explains the logs. Once the time is spent, nothing.
  * In:      u         the declared model, fitted
  * In/out:  tolerant  it within its tolerances, fitted */
 static int search_beside(const lab_unknowns *u, const lab_search_options *options, contest *c, lab_finding *tolerant,
