@@ -97,23 +97,63 @@ static int find_leaks(const lab_candidate *c, const lab_candidate *without, cons
   return n;
 }
 
-/* An effect in the place of what was found last: briefly, and to the end if it comes near.
- * In/out:  c  the model without it */
-static void fit_rival(const field *f, const lab_score *score, lab_candidate *c, lab_error *all)
+/* Put values back to what is declared: beside what was found they are bent to make up for what it is not.
+ * Returns: whether one was off by half a tolerance or more */
+static int unbend(lab_unknowns *u)
+{
+  static const double bent = 0.5; /* by judgement */
+  int j, any = 0;
+  for (j = 0; j < u->n; j++) {
+    lab_unknown *x = &u->unknown[j];
+    if (x->kind != LAB_UNKNOWN_PARAM || !lab_unknown_is_held(x))
+      continue;
+    any |= fabs(x->value - x->prior) > bent * x->tolerance;
+    x->value = x->prior;
+  }
+  lab_unknowns_take(u);
+  return any;
+}
+
+/* Fit an effect in the place of what was found last: briefly, and to the end if it comes near.
+ * In:      slopes  to begin with, or NULL
+ * In/out:  c       the model without it
+ * Returns: whether it came near */
+static int fit_in_place(const field *f, const lab_score *score, const lab_unknowns *slopes, lab_candidate *c,
+                        lab_error *all)
 {
   const lab_quality *best = &f->of[0].quality;
   const double near = best->bic + lab_constant(LAB_RIVAL_NEAR), far = lab_constant(LAB_RIVAL) * best->chi2;
   const double bar = lab_carry_is_asked(&f->of[0]) ? fmax(near, far) : near;
   lab_error error;
+  int comes_near;
   if (lab_candidate_add_effect(c, score, score->size, &error) != LAB_OK)
-    return;
+    return 0;
   if (lab_unknowns_keep_slopes(&c->u, &error))
     lab_fail_together(all, &error);
-  lab_unknowns_begin_with(&c->u, &f->base);
+  if (slopes)
+    lab_unknowns_begin_with(&c->u, slopes);
   lab_refit_one(c, lab_count(LAB_BRIEF_STEPS), all);
-  if (c->quality.fitted && c->quality.bic < bar)
+  comes_near = c->quality.fitted && c->quality.bic < bar;
+  if (comes_near)
     lab_refit_one(c, LAB_ROUNDS_ALL, all);
   lab_unknowns_forget_slopes(&c->u);
+  return comes_near;
+}
+
+/* The same from the values of the model and, if that leads nowhere near, from those that are declared. */
+static void fit_rival(const field *f, const lab_score *score, lab_candidate *c, lab_error *all)
+{
+  lab_candidate *again = malloc(sizeof *again);
+  lab_error error;
+  if (!again) {
+    lab_fail_memory(&error, "a candidate");
+    lab_fail_together(all, &error);
+    return;
+  }
+  *again = *c;
+  if (!fit_in_place(f, score, &f->base, c, all) && unbend(&again->u) && fit_in_place(f, score, NULL, again, all))
+    *c = *again;
+  free(again);
 }
 
 /* All that may stand in the place of what was found last.  Returns: LAB_OK, LAB_WORLD */

@@ -2,8 +2,9 @@
  *
  * A search ranks effects by brief fits, which differ by less than a fit to the end gains. So each effect that was found
  * is put to the test once more: it is taken out of the final model, all others are scored, and those that score nearly
- * as high are fitted to the end in its place, with everything that varies. The best one stays, or, where that is asked
- * (carry.h), the one that carries over best; those that the logs cannot tell from the best are noted.
+ * as high are fitted to the end in its place, with everything that varies: from its values, and from those declared,
+ * for beside the wrong effect they are bent. The best one stays, or, where that is asked (carry.h), the one that carries
+ * over best; those that the logs cannot tell from the best are noted.
  * SPDX-License-Identifier: MIT */
 #ifndef LAB_RIVALS_H
 #define LAB_RIVALS_H
