@@ -114,6 +114,13 @@ static int is_beyond(const lab_deviation *d, double tolerance)
   return off > tolerance && (off - least <= known * tolerance || least > tolerance);
 }
 
+/* What is not known of the other one of two values that act as one. */
+static double beside(const lab_rig *rig, int param)
+{
+  const int twin = lab_param_twin(param);
+  return twin < 0 ? 0 : lab_tolerance(rig, twin);
+}
+
 /* The deviation of unknown j.  Returns: its size over the tolerance */
 static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_result *fit, int j, lab_deviation *d)
 {
@@ -130,7 +137,7 @@ static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_r
   d->ratio = d->declared != 0 ? d->found / d->declared : (double)NAN;
   d->tolerance = d->declared != 0 ? tolerance / fabs(d->declared) : tolerance;
   d->held = lab_unknown_is_held(x) || lab_unknown_is_let_go(x);
-  d->beyond = is_beyond(d, tolerance);
+  d->beyond = is_beyond(d, tolerance + beside(rig, param));
   return tolerance > 0 ? fabs(d->found - d->declared) / tolerance : (double)INFINITY;
 }
 

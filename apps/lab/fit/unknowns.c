@@ -564,8 +564,7 @@ int lab_unknowns_open(const lab_rig *rig, const lab_run *run, int n_runs, lab_un
   return LAB_OK;
 }
 
-/* Damping and viscous friction add up to one coefficient.  Returns: the other of these two; -1 for all else */
-static int twin_of(int param)
+int lab_param_twin(int param)
 {
   return param == PNEU_PARAM_damping            ? (int)PNEU_PARAM_viscous_friction
          : param == PNEU_PARAM_viscous_friction ? (int)PNEU_PARAM_damping
@@ -576,7 +575,7 @@ static int twin_of(int param)
  * known less well. */
 static double to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
 {
-  const int area = param == PNEU_PARAM_fill_area || param == PNEU_PARAM_vent_area, twin = twin_of(param);
+  const int area = param == PNEU_PARAM_fill_area || param == PNEU_PARAM_vent_area, twin = lab_param_twin(param);
   const int left = param == PNEU_PARAM_damping && lab_rig_fits(declared, param);
   const double tolerance = param == LAB_PARAM_ORIFICE_AREA ? 0
                            : left                          ? lab_param_value(declared, param)

@@ -103,6 +103,9 @@ double lab_unknown_reach(const lab_unknowns *u, const lab_unknown *x);
 /* Whether parameter `param` is a value of the rig, and no part of an effect. */
 int lab_param_is_value(int param);
 
+/* Damping and viscous friction add up to one coefficient.  Returns: the other of these two; -1 for all else */
+int lab_param_twin(int param);
+
 /* Whether parameter `param` is an error of a sensor, and no value of the rig. */
 int lab_param_is_of_sensor(int param);
 

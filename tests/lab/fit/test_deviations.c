@@ -190,3 +190,26 @@ TEST(test_lab_deviation_of__value_hardly_known__is_beyond_where_all_of_its_inter
     assert_int_equal(d.beyond, cases[i].beyond);
   }
 }
+
+/* Damping and viscous friction are known to half of themselves, and act as one: what both may be off counts. */
+TEST(test_lab_deviation_of__damping__has_room_for_viscous_friction)
+{
+  static const double found[] = {0.3, 0.2};
+  static lab_rig rig;
+  int i;
+  lab_rig_default(&rig);
+  rig.params.damping = 1000;
+  rig.params.viscous_friction = 500;
+  rig.fit[rig.n_fit++] = PNEU_PARAM_damping;
+  for (i = 0; i < 2; i++) {
+    static lab_unknowns u;
+    static lab_fit_result fit;
+    lab_deviation d;
+    u.n = 0;
+    u.rig = rig;
+    u.declared = rig.params;
+    put(&u, &fit, LAB_UNKNOWN_PARAM, PNEU_PARAM_damping, 1000 * found[i], 10);
+    assert_true(lab_deviation_of(&rig, &u, &fit, 0, &d));
+    assert_int_equal(d.beyond, i);
+  }
+}
