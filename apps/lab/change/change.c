@@ -15,7 +15,7 @@
 /* A change taken up, in a copy of the comparison. */
 typedef struct extension {
   lab_unknowns u;
-  double chi2;
+  double chi2, unplaced; /* unplaced: before its onset was found */
   int fitted, param, shape;
   int n_free; /* what it adds to the fit */
   lab_onset begin, end;
@@ -61,20 +61,30 @@ static void unbend(const lab_sides *c, lab_unknowns *u)
   lab_unknowns_take(u);
 }
 
-/* In/out:  x  the model to begin with */
-static int refit_from(const lab_sides *c, const lab_score *score, double size, double level, extension *x,
-                      lab_error *all)
+/* Whether finding its onset can bring a change as far as it has brought another one. */
+static int may_catch_up(const extension *x, const extension *leader)
 {
+  return !leader || !leader->begin.known || x->chi2 - leader->unplaced < leader->unplaced - leader->chi2;
+}
+
+/* In:      leader  another change that explains the new logs, or NULL: what cannot come near it is given up
+ * In/out:  x       the model to begin with */
+static int refit_from(const lab_sides *c, const lab_score *score, double size, double level, const extension *leader,
+                      extension *x, lab_error *all)
+{
+  const double aim = leader ? leader->unplaced : HUGE_VAL;
   lab_error error = {LAB_OK, ""};
   x->param = score->param;
   x->shape = score->shape;
   x->fitted = 0;
   if (lab_sides_release(&x->u, c->first, score, size, &error) == LAB_OK &&
       (score->shape < 0 || lab_unknowns_add(&x->u, score->shape, score->shape_value, &error) == LAB_OK) &&
-      lab_sides_settle(&x->u, &x->chi2, &error) == LAB_OK &&
-      (score->onset == 0 ||
-       lab_onset_find(&x->u, lab_sides_find(&x->u, x->param), level, &x->chi2, &x->begin, &error) == LAB_OK))
-    x->fitted = keeps_baseline(c, x, &error);
+      lab_sides_settle(&x->u, aim, &x->chi2, &error) == LAB_OK) {
+    x->unplaced = x->chi2;
+    if (score->onset == 0 || (may_catch_up(x, leader) && lab_onset_find(&x->u, lab_sides_find(&x->u, x->param), level,
+                                                                        &x->chi2, &x->begin, &error) == LAB_OK))
+      x->fitted = keeps_baseline(c, x, &error);
+  }
   x->n_free = 1 + (x->shape >= 0) + x->begin.known;
   lab_fail_together(all, &error);
   return x->fitted;
@@ -82,12 +92,14 @@ static int refit_from(const lab_sides *c, const lab_score *score, double size, d
 
 /* From what the slope says and, where that leads nowhere near what it promises, from the usual size; with the
  * baseline's values, if it is spoilt where it is followed to first order. */
-static void refit(const lab_sides *c, const lab_score *score, double level, extension *x, lab_error *all)
+static void refit(const lab_sides *c, const lab_score *score, double level, const extension *leader, extension *x,
+                  lab_error *all)
 {
   static const double kept = 0.5; /* of a promise */
   extension *again;
   x->u = c->u;
-  if (refit_from(c, score, score->size, level, x, all) && c->chi2 - x->chi2 > kept * score->statistic)
+  if ((refit_from(c, score, score->size, level, leader, x, all) && c->chi2 - x->chi2 > kept * score->statistic) ||
+      leader)
     return;
   again = calloc(1, sizeof *again);
   if (again) {
@@ -95,10 +107,19 @@ static void refit(const lab_sides *c, const lab_score *score, double level, exte
     if (!x->fitted && c->u.linear)
       unbend(c, &again->u);
   }
-  if (again && refit_from(c, score, copysign(lab_change_usual(&c->u, score->param), score->size), level, again, all) &&
+  if (again &&
+      refit_from(c, score, copysign(lab_change_usual(&c->u, score->param), score->size), level, NULL, again, all) &&
       (!x->fitted || again->chi2 < x->chi2))
     *x = *again;
   free(again);
+}
+
+/* Whether a change leaves as little of the new logs as there is of the baseline. */
+static int explains(const lab_sides *c, const extension *x)
+{
+  lab_error error;
+  lab_rest left;
+  return x->fitted && lab_sides_rest(&x->u, c->first, &left, &error) == LAB_OK && lab_rest_is_as_before(&left);
 }
 
 /* Whether the supply drives the model through the new log, and nobody has measured it. */
@@ -233,6 +254,7 @@ static int take_best(lab_sides *c, const lab_scores *scores, double level, exten
                      lab_error *error)
 {
   extension *x = calloc(LAB_CHANGE_LEADERS + 1, sizeof *x), *best;
+  const extension *leader;
   int i, n = 1, passes;
   *taken = 0;
   if (!x)
@@ -242,9 +264,12 @@ static int take_best(lab_sides *c, const lab_scores *scores, double level, exten
   error->status = LAB_OK;
   while (n <= LAB_CHANGE_LEADERS && n <= scores->n && scores->of[n - 1].p_value < level)
     n++;
+  if (n > 1)
+    refit(c, scores->of, level, NULL, &x[1], error);
+  leader = n > 1 && explains(c, &x[1]) ? &x[1] : NULL;
 #pragma omp parallel for schedule(dynamic)
-  for (i = 1; i < n; i++)
-    refit(c, &scores->of[i - 1], level, &x[i], error);
+  for (i = 2; i < n; i++)
+    refit(c, &scores->of[i - 1], level, leader, &x[i], error);
   best = choose(x, n);
   passes = error->status == LAB_OK && is_change(c, best, level, error);
   if (error->status == LAB_NUMERIC && x[0].fitted) { /* a supply that was followed needs no time to try others */
@@ -468,13 +493,41 @@ static int may_have_changed(const lab_sides *c, lab_error *error)
   return c->decided || lab_sides_rest(&c->u, c->first, &left, error) || lab_rest_is_more_than_noise(&left);
 }
 
+/* Take up the first suspect that explains the new logs.  Out: taken */
+static int take_suspect(lab_sides *c, double alpha, int *taken, lab_error *error)
+{
+  const double level = alpha / (LAB_SCORES_MAX * LAB_ONSET_PLACES); /* as many tests as there may be */
+  extension *x = calloc(1, sizeof *x);
+  int i, k, count;
+  *taken = 0;
+  if (!x)
+    return lab_fail_memory(error, "changes");
+  error->status = LAB_OK;
+  for (i = 0; i < c->n_suspects && !*taken && error->status == LAB_OK; i++) {
+    const lab_suspect *s = &c->suspect[i];
+    x->u = c->u;
+    refit_from(c, &s->score, s->score.size, level, NULL, x, error);
+    *taken = explains(c, x) && is_change(c, x, level, error);
+    if (!*taken)
+      continue;
+    take(c, x, NULL, 0);
+    for (k = 0; s->found && k < s->found->n_alike && k < LAB_CHANGE_LEADERS; k++)
+      c->change[c->n - 1].alike[c->change[c->n - 1].n_alike++] = pneu_effect_params(s->found->alike[k], &count);
+  }
+  free(x);
+  return error->status;
+}
+
 static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *error)
 {
   extension *course = malloc(sizeof *course);
-  int unknown = 0, status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
-  if (status == LAB_OK)
+  int unknown = 0, taken = 0, status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
+  if (status == LAB_OK && !course->fitted)
+    status = take_suspect(c, alpha, &taken, error);
+  if (status == LAB_OK && !taken)
     status = lab_sides_approach(&c->u, &c->chi2, error);
-  if ((status == LAB_OK && (course->fitted || may_have_changed(c, error))) || (status == LAB_NUMERIC && course->fitted))
+  if ((status == LAB_OK && (taken || course->fitted || may_have_changed(c, error))) ||
+      (status == LAB_NUMERIC && course->fitted))
     status = take_all(c, alpha, course, changes, error);
   free(course);
   if (status != LAB_OK)
@@ -483,12 +536,16 @@ static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *
   return describe(c, changes, &unknown, error) ? error->status : conclude(c, unknown, changes, error);
 }
 
-int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, int n_now, double alpha,
-                     lab_changes *changes, lab_error *error)
+int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, int n_now, const lab_suspect *suspects,
+                     int n_suspects, double alpha, lab_changes *changes, lab_error *error)
 {
   lab_sides *c = calloc(1, sizeof *c);
   int status = c ? lab_sides_join(then, decided, now, n_now, c, error) : lab_fail_memory(error, "a comparison");
   memset(changes, 0, sizeof *changes);
+  if (c) {
+    c->suspect = suspects;
+    c->n_suspects = n_suspects;
+  }
   if (status == LAB_OK)
     status = compare(c, alpha, changes, error);
   if (c && is_out_of_time(c, status)) {

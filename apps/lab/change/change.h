@@ -8,7 +8,7 @@
 #ifndef LAB_CHANGE_H
 #define LAB_CHANGE_H
 
-#include "../trace/onset.h"
+#include "suspect.h"
 
 enum lab_since { LAB_SINCE_CANNOT_TELL, LAB_SINCE_UNCHANGED, LAB_SINCE_CHANGED };
 
@@ -42,12 +42,13 @@ const char *lab_change_name(int param, char name[LAB_PARAM_NAME_TEXT]);
 const char *lab_change_unit(const lab_change *change);
 
 /* Compare.
- * In:      then     completed on the baseline, fitted, row by row
- *          decided  not 0: it leaves only noise there
- *          now      n_now runs of the new logs, of the same rig
- *          alpha    chance of naming a change where there is none
+ * In:      then      completed on the baseline, fitted, row by row
+ *          decided   not 0: it leaves only noise there
+ *          now       n_now runs of the new logs, of the same rig
+ *          suspects  n_suspects differences that are asked first: one that leaves only noise needs no others
+ *          alpha     chance of naming a change where there is none
  * Returns: LAB_OK; LAB_DATA if there are too many runs; LAB_NUMERIC, LAB_WORLD. */
-int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, int n_now, double alpha,
-                     lab_changes *changes, lab_error *error);
+int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, int n_now, const lab_suspect *suspects,
+                     int n_suspects, double alpha, lab_changes *changes, lab_error *error);
 
 #endif

@@ -152,15 +152,16 @@ static int take_rest_as_noise(const lab_unknowns *then, lab_sides *c, lab_error 
   return status;
 }
 
-int lab_sides_settle(lab_unknowns *u, double *chi2, lab_error *error)
+int lab_sides_settle(lab_unknowns *u, double aim, double *chi2, lab_error *error)
 {
   static const double still = 0.5; /* of chi-square */
   enum { FITS = 6 };
-  double before;
+  double before, gain = HUGE_VAL;
   int i, status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, chi2, error);
-  for (i = 1, before = HUGE_VAL; i < FITS && status == LAB_OK && before - *chi2 > still; i++) {
+  for (i = 1; i < FITS && status == LAB_OK && gain > still && (FITS - i) * gain > *chi2 - aim; i++) {
     before = *chi2;
     status = lab_unknowns_fit(u, LAB_ROUNDS_ALL, chi2, error);
+    gain = before - *chi2;
   }
   return status;
 }
@@ -176,7 +177,7 @@ int lab_sides_approach(lab_unknowns *u, double *chi2, lab_error *error)
     for (j = 0; j < u->n; j++)
       if (u->unknown[j].kind == LAB_UNKNOWN_CHANGE)
         u->unknown[j].spread = share[i] * spread[j];
-    status = i < 2 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, chi2, error) : lab_sides_settle(u, chi2, error);
+    status = i < 2 ? lab_unknowns_fit(u, LAB_ROUNDS_ALL, chi2, error) : lab_sides_settle(u, HUGE_VAL, chi2, error);
   }
   return status;
 }
@@ -280,6 +281,8 @@ int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *
     left->now = left_of(u, r, first, u->n_runs);
     left->n = rows_of(u, first);
     left->chi2 = lab_dot(r, r, u->m);
+    left->n_priors = (int)(u->m - lab_unknowns_before_priors(u));
+    left->priors = lab_dot(r + u->m - left->n_priors, r + u->m - left->n_priors, (size_t)left->n_priors);
   }
   free(r);
   return status;
@@ -307,6 +310,13 @@ int lab_rest_is_doubtful(const lab_rest *left)
 int lab_rest_spoils_baseline(const lab_rest *left)
 {
   return left->then > sqrt(lab_constant(LAB_NOISE_DOUBTFUL));
+}
+
+int lab_rest_is_as_before(const lab_rest *left)
+{
+  const double deviations = lab_constant(LAB_NOISE_DEVIATIONS), before = fmax(left->then, 1);
+  return left->now * left->now <= before * before * (1 + deviations * sqrt(2 / (double)left->n)) &&
+         left->priors <= left->n_priors + deviations * sqrt(2 * (double)left->n_priors);
 }
 
 int lab_rest_is_more_than_noise(const lab_rest *left)

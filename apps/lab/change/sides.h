@@ -21,6 +21,8 @@ typedef struct lab_sides {
   int n;
   lab_change change[LAB_CHANGES_MAX]; /* what was taken up */
   int shape[LAB_CHANGES_MAX];
+  const lab_suspect *suspect; /* to be asked first */
+  int n_suspects;
   double
       followed; /* by how much chi-square fell when the supply was followed, which is the last change; 0: it was not */
   int n_followed; /* what that fitted */
@@ -39,8 +41,9 @@ int lab_sides_find(const lab_unknowns *u, int param);
  * Returns: LAB_OK, LAB_DATA without room */
 int lab_sides_release(lab_unknowns *u, int first, const lab_score *score, double value, lab_error *error);
 
-/* Fit until it stays where it is: what is known to a day only makes long valleys. */
-int lab_sides_settle(lab_unknowns *u, double *chi2, lab_error *error);
+/* Fit until it stays where it is: what is known to a day only makes long valleys.
+ * In:  aim  chi-square that another model has: where the last fit gained too little to get there, it ends; HUGE_VAL */
+int lab_sides_settle(lab_unknowns *u, double aim, double *chi2, lab_error *error);
 
 /* Fit with what differs from day to day held close at first: from none, the first step of all together would lead far
  * astray, where another valley may hold it. */
@@ -54,8 +57,9 @@ void lab_sides_whole(const lab_sides *c, const lab_unknowns *u, lab_unknowns *wh
 /* What is left of either side, [1] over what counts as noise. */
 typedef struct lab_rest {
   double then, now;
-  size_t n; /* values of the new logs */
-  double chi2;
+  size_t n;            /* values of the new logs */
+  double chi2, priors; /* priors: of these, what is known beforehand is off by */
+  int n_priors;
 } lab_rest;
 
 /* In:      first  run of the new logs
@@ -65,6 +69,9 @@ int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *
 /* The same with both sides simulated.  In: u  as c->u  run  c->run or c->white */
 int lab_sides_rest_of_all(const lab_sides *c, const lab_unknowns *u, const lab_run *run, lab_rest *left,
                           lab_error *error);
+
+/* Whether the new logs leave as little as the baseline, or as noise does, with values as they may be. */
+int lab_rest_is_as_before(const lab_rest *left);
 
 /* Whether the new logs leave more than noise. */
 int lab_rest_is_more_than_noise(const lab_rest *left);

@@ -554,16 +554,17 @@ static int complete(const lab_request *q, const allowance *time, double fit_s, i
   return lab_drift_say(&c->completed, &c->logs.limitations, error);
 }
 
-/* What has changed since the baseline, which is asked before the new logs are traced. Where the logs of either side are
- * in doubt, that is all that can be said.
- * In:      time  of all; a third is for the model of the baseline, what is left but a fifth for the comparison */
+/* What has changed since the baseline. Where the logs of either side are in doubt, that is all that can be said.
+ * In:      time  of all; a third is for the model of the baseline, what is left but a tenth for the comparison */
 static int compare(const lab_request *q, const allowance *time, lab_answer *a, lab_error *error)
 {
-  static const double baseline = 1.0 / 3, both = 0.8;
+  static const double baseline = 1.0 / 3, both = 0.9;
   const allowance own = {lab_cpu_time(), baseline * time->budget};
   lab_completion *then = &a->then;
   const lab_limitations *doubtful = a->now.logs.limitations.doubt ? &a->now.logs.limitations : &then->logs.limitations;
+  lab_suspect suspect[LAB_SUSPECTS_MAX];
   double fit_s;
+  int n;
   if (then->logs.n == 0)
     return LAB_OK;
   a->report.changes = &a->changes;
@@ -576,8 +577,10 @@ static int compare(const lab_request *q, const allowance *time, lab_answer *a, l
     return error->status;
   on_progress(q, "looking for what has changed");
   then->completed.until = time->budget > 0 ? time->start + both * time->budget : 0;
+  n = lab_suspects_find(&(lab_explained){&then->completed, &then->result},
+                        &(lab_explained){&a->now.completed, &a->now.result}, suspect);
   if (lab_changes_find(&then->completed, !lab_values_stand_in(then->result.verdict, then->result.fit.reduced_chi2),
-                       a->now.logs.run, a->now.logs.n, q->alpha, &a->changes, error))
+                       a->now.logs.run, a->now.logs.n, suspect, n, q->alpha, &a->changes, error))
     return error->status;
   lab_unknowns_settle(&then->completed, &then->result.fit);
   a->report.baseline = &then->completed.rig;
@@ -595,8 +598,9 @@ static int leave_as_declared(lab_answer *a, lab_error *error)
 
 static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
 {
-  static const double without_u = 0.75; /* of the budget, by judgement: the rest is for u */
+  static const double without_u = 0.75, beside = 0.6; /* of the budget, by judgement: the rest is for u, the baseline */
   const allowance time = {lab_cpu_time(), (a->now.logs.n_without_u > 0 ? without_u : 1) * q->budget};
+  const allowance own = {time.start, (a->then.logs.n > 0 ? beside : 1) * time.budget};
   const double start = lab_clock();
   double fit_s;
   a->report = (lab_report){.rig = &a->rig,
@@ -606,10 +610,10 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
                            .limitations = &a->now.logs.limitations,
                            .measured = &a->measured,
                            .predicted = &a->predicted};
-  if (fit_to(q, &a->rig, &time, &a->now, &fit_s, error))
+  if (fit_to(q, &a->rig, &own, &a->now, &fit_s, error))
     return error->status;
   a->report.fit_s = lab_clock() - start;
-  if (compare(q, &time, a, error) || complete(q, &time, fit_s, 1, &a->now, error) || conclude(a, error) ||
+  if (complete(q, &own, fit_s, 1, &a->now, error) || compare(q, &time, a, error) || conclude(a, error) ||
       leave_as_declared(a, error))
     return error->status;
   a->report.trace_s = a->now.result.score_s;

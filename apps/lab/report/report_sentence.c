@@ -362,6 +362,15 @@ static void say_value(const lab_change *change, char text[LAB_SENTENCE_TEXT])
         LAB_NUMBER(change->now / change->then, 3));
 }
 
+/* What the vent passes less than declared, if that is the parameter: what it does beside the fill orifice, and both. */
+static void compare_vent(const lab_report *report, lab_rig *rig, int param)
+{
+  const pneu_params *now = &rig->params, *declared = &report->rig->params;
+  const double passes = 1 - lab_param_value(rig, param);
+  if (lab_param_is_vents_share(param) && declared->vent_area > 0)
+    *pneu_param_at(&rig->params, param) = (pneu_real)(1 - passes * (double)(now->vent_area / declared->vent_area));
+}
+
 /* "the chamber leaks: 0.0602 mm2, ... (chamber_leak, 3 times what it was)", "no longer: the chamber leaks: ..." */
 static void say_effect(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
 {
@@ -372,6 +381,7 @@ static void say_effect(const lab_report *report, const lab_change *change, char 
   lab_rig rig;
   lab_rig_at(&report->completed->rig, INFINITY, &rig);
   *pneu_param_at(&rig.params, change->param) = (pneu_real)(is_gone ? change->then : change->now);
+  compare_vent(report, &rig, change->param);
   lab_effect_sentence(&rig, pneu_effect_of(change->param), change->param, sentence);
   *sentence = (char)tolower((unsigned char)*sentence);
   ADD(text, "%s%.*s (%s", is_gone ? "no longer: " : "", (int)strlen(sentence) - 1, sentence,
@@ -390,14 +400,13 @@ static int has_sentence(int param)
 
 static void say_change(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
 {
-  char name[LAB_PARAM_NAME_TEXT];
+  char name[LAB_PARAM_NAME_TEXT], since[LAB_SINCE_TEXT];
   int i;
   if (has_sentence(change->param))
     say_effect(report, change, text);
   else
     say_value(change, text);
-  if (change->begin.known)
-    ADD(text, " since %s s", LAB_NUMBER(change->begin.t, 4));
+  ADD(text, "%s", lab_report_since(change->begin.known ? &change->begin : NULL, since));
   if (change->end.known)
     ADD(text, " until %s s", LAB_NUMBER(change->end.t, 4));
   for (i = 0; i < change->n_alike; i++)
@@ -426,15 +435,6 @@ static void add_changes(const lab_report *report, char text[LAB_SENTENCE_TEXT])
 
 /* ---- What is missing ---- */
 
-/* What the vent passes less than declared: what it does beside the fill orifice, and what both do. */
-static void compare_vent(const lab_report *report, lab_rig *rig, int param)
-{
-  const pneu_params *now = &rig->params, *declared = &report->rig->params;
-  const double passes = 1 - lab_param_value(rig, param);
-  if (declared->vent_area > 0)
-    *pneu_param_at(&rig->params, param) = (pneu_real)(1 - passes * (double)(now->vent_area / declared->vent_area));
-}
-
 /* The sentence of an effect, at a rig's values, with when it begins. */
 static void tell_effect(const lab_report *report, const lab_rig *rig, int param, char text[LAB_FOUND_SENTENCE])
 {
@@ -450,8 +450,7 @@ const char *lab_report_found_sentence(const lab_report *report, const lab_found 
   lab_rig last;
   if (found->effect >= 0) {
     lab_rig_at(&report->completed->rig, INFINITY, &last);
-    if (lab_param_is_vents_share(found->param))
-      compare_vent(report, &last, found->param);
+    compare_vent(report, &last, found->param);
     tell_effect(report, &last, found->param, text);
   } else
     snprintf(text, LAB_FOUND_SENTENCE, "Something that is not in the catalogue acts like %s: %s.",
@@ -460,15 +459,33 @@ const char *lab_report_found_sentence(const lab_report *report, const lab_found 
   return text;
 }
 
-/* The sentence of each, with its name before the full stop. */
+/* Whether it is told as what has changed. */
+static int has_changed(const lab_report *report, int param)
+{
+  int i, any = 0;
+  for (i = 0; report->changes && i < report->changes->n; i++)
+    any |= report->changes->change[i].param == param;
+  return any;
+}
+
+/* What parts a sentence from what stands before it. */
+static const char *gap(const char *text)
+{
+  const size_t n = strlen(text);
+  return n == 0 || text[n - 1] == ' ' ? "" : " ";
+}
+
+/* The sentence of each that is not told yet, with its name before the full stop. */
 static void add_found(char *text, const lab_report *report)
 {
   const lab_search_result *r = report->result;
   int i;
   for (i = 0; i < r->n_found; i++) {
     char sentence[LAB_FOUND_SENTENCE];
+    if (r->found[i].effect >= 0 && has_changed(report, r->found[i].param))
+      continue;
     lab_report_found_sentence(report, &r->found[i], sentence);
-    ADD(text, "%s%.*s", i ? " " : "", (int)strlen(sentence) - 1, sentence);
+    ADD(text, "%s%.*s", gap(text), (int)strlen(sentence) - 1, sentence);
     if (r->found[i].effect >= 0)
       ADD(text, " (%s)", pneu_effect_at(r->found[i].effect)->name);
     ADD(text, ".");
@@ -492,12 +509,13 @@ static void add_sensors(char *text, const lab_report *report)
     const lab_deviation *d = &all->of[i];
     char sentence[LAB_FOUND_SENTENCE];
     lab_rig last;
-    if (!lab_report_is_told(report, d) || !is_of_sensor(d) || is_found(report->result, d->param))
+    if (!lab_report_is_told(report, d) || !is_of_sensor(d) || is_found(report->result, d->param) ||
+        has_changed(report, d->param))
       continue;
     lab_rig_at(&report->completed->rig, INFINITY, &last);
     *pneu_param_at(&last.params, d->param) = (pneu_real)d->found;
     tell_effect(report, &last, d->param, sentence);
-    ADD(text, " %s", sentence);
+    ADD(text, "%s%s", gap(text), sentence);
   }
 }
 
@@ -557,7 +575,9 @@ static void add_undecided_cause(char *text, const lab_search_result *r)
         "The stem moves by jerks and the model's does not: something is missing, perhaps friction that sticks or a "
         "force that shakes it.");
   else if (r->is_far)
-    ADD(text, "Several values are far off their sheet: it is that of another rig, or something else is missing.");
+    ADD(text,
+        "It takes values far off their sheet to explain the log: the sheet is of another rig, or something else is "
+        "missing.");
   else
     ADD(text, "Something is missing, %s.", why);
 }
@@ -581,7 +601,7 @@ void lab_report_headline(const lab_report *report, char text[LAB_SENTENCE_TEXT])
     return;
   }
   deviates = add_deviations(text, report, 0) > 0;
-  ADD(text, deviates && r->verdict != LAB_VERDICT_NONE ? ". " : "");
+  ADD(text, deviates && r->verdict != LAB_VERDICT_NONE ? "." : "");
   if (r->verdict == LAB_VERDICT_NONE)
     ADD(text, "%s", nothing(report, deviates));
   else
@@ -675,7 +695,7 @@ void lab_report_sentence(const lab_report *report, char text[LAB_SENTENCE_TEXT])
   char evidence[LAB_SENTENCE_TEXT];
   lab_report_headline(report, text);
   lab_report_evidence(report, evidence);
-  ADD(text, *evidence ? " %s" : "%s", evidence);
+  ADD(text, "%s%s", *evidence ? gap(text) : "", evidence);
 }
 
 /* ---- What it has to be read with: remarks on the logs, and what the fit could not determine ---- */

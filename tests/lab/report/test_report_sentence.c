@@ -303,8 +303,8 @@ TEST(test_lab_report_headline__undecided__tells_values_last_and_with_care)
   result.is_far = 1;
   d->n = 1;
   lab_report_sentence(&report, text);
-  assert_contains(text, "Several values are far off their sheet: it is that of another rig, or something else is "
-                        "missing. As far as the log tells, friction is 2 times its sheet.");
+  assert_contains(text, "It takes values far off their sheet to explain the log: the sheet is of another rig, or "
+                        "something else is missing. As far as the log tells, friction is 2 times its sheet.");
   assert_null(strstr(text, "is not noise"));
   result.is_far = 0;
   result.jerks = 1;
@@ -353,10 +353,11 @@ TEST(test_lab_report_headline__since_the_baseline__is_told_in_the_same_words)
   changes.change[3] = (lab_change){.param = pneu_param_find("transducer_time"), .then = 0.2};
   lab_report_headline(&report, text);
   assert_contains(
-      text, "Changed since the baseline: friction from 480 N to 720 N (1.50 times); the chamber leaks: 0.0130 mm²,"
-            " 1.5 % of the fill orifice, 42 Nl/h at 4 bar supply (chamber_leak) since 14.20 s; every command"
-            " acts 12.0 ms late (dead_time, 1.20 times what it was); no longer: the transducer follows its command"
-            " with a lag of 200 ms (transducer_lag). ");
+      text,
+      "Changed since the baseline: friction from 480 N to 720 N (1.50 times); the chamber leaks: 0.0130 mm²,"
+      " 1.5 % of the fill orifice, 42 Nl/h at 4 bar supply (chamber_leak) since 14.2 s (14.0 to 15.0 s); every command"
+      " acts 12.0 ms late (dead_time, 1.20 times what it was); no longer: the transducer follows its command"
+      " with a lag of 200 ms (transducer_lag). ");
   changes.n = 2;
   changes.change[0] = (lab_change){.param = pneu_param_find("positioner.dead_band"), .then = 0.005, .now = 0.008};
   changes.change[1] = (lab_change){.param = PNEU_PARAM_spring_rate, .then = 4e5, .now = 3e5};
@@ -368,6 +369,26 @@ TEST(test_lab_report_headline__since_the_baseline__is_told_in_the_same_words)
   changes.change[0] = (lab_change){.param = pneu_param_find("vent_restriction"), .then = -0.003, .now = 0.3};
   lab_report_headline(&report, text);
   assert_contains(text, "the vent passes 30 % less than declared (vent_restriction). ");
+}
+
+/* What has changed is not told again as what is missing. */
+TEST(test_lab_report_headline__found_and_changed__is_told_once)
+{
+  static lab_changes changes = {.condition = LAB_SINCE_CHANGED, .n = 1};
+  const int leak = pneu_param_find("leak_area");
+  lab_report report = answer(LAB_VERDICT_EFFECT, 0);
+  lab_rig_default(&completed.rig);
+  completed.rig.laws.flow = PNEU_FLOW_CHOKED;
+  result.n_found = 1;
+  result.found[0] = (lab_found){.effect = pneu_effect_of(leak), .param = leak};
+  changes.change[0] = (lab_change){.param = leak, .now = 1.3e-8};
+  report.changes = &changes;
+  lab_report_headline(&report, text);
+  assert_string_equal(text, "Changed since the baseline: the chamber leaks: 0.0130 mm², 1.5 % of the fill orifice, 42"
+                            " Nl/h at 4 bar supply (chamber_leak). ");
+  changes.change[0].param = pneu_param_find("transducer_time");
+  lab_report_headline(&report, text);
+  assert_contains(text, "The chamber leaks");
 }
 
 /* What to look at on the rig stands beside effects that there are. */
