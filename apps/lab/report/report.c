@@ -115,7 +115,7 @@ double lab_report_refit_explains(const lab_search_result *r, const lab_score *sc
   int i;
   for (i = 1; r->window == 0 && i < r->n_steps; i++)
     if (!strcmp(r->step[i].name, pneu_effect_at(score->effect)->name))
-      return (r->step[0].chi2 - r->step[i].chi2) / fmax(r->step[0].chi2 - (double)r->before.n, 1);
+      return fmin(fmax((r->step[0].chi2 - r->step[i].chi2) / fmax(r->step[0].chi2 - (double)r->before.n, 1), 0), 1);
   return (double)NAN;
 }
 

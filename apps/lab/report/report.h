@@ -107,7 +107,7 @@ int lab_report_is_completed(const lab_report *report);
 double lab_report_chance(const lab_report *report, const lab_found *found);
 
 /* Share of the excess over the noise that an effect explains by itself, as its refit beside the declared model found
- * it; NaN where there was none, or none row by row. */
+ * it, 0 to 1; NaN where there was none, or none row by row. */
 double lab_report_refit_explains(const lab_search_result *result, const lab_score *score);
 
 /* Whether a deviation is told in the headline: it is beyond its tolerance, or began within the log; and how many are.

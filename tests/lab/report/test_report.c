@@ -591,6 +591,21 @@ TEST(test_lab_report_json__explained__is_that_of_the_refit)
   cJSON_Delete(root);
 }
 
+/* A refit that ends farther from the logs explains nothing, and none explains more than there is. */
+TEST(test_lab_report_refit_explains__any_refit__is_a_share)
+{
+  static lab_search_result r = {.n_steps = 2, .before = {.n = 90}};
+  static const double chi2[] = {5000, 50, 95}, share[] = {0, 1, 0.5};
+  const lab_score score = {.effect = 0};
+  int i;
+  snprintf(r.step[1].name, sizeof r.step[1].name, "%s", pneu_effect_at(0)->name);
+  for (i = 0; i < 3; i++) {
+    r.step[0].chi2 = 100;
+    r.step[1].chi2 = chi2[i];
+    assert_close(lab_report_refit_explains(&r, &score), share[i], 0, 1e-12);
+  }
+}
+
 /* ---- Evidence ---- */
 
 TEST(test_lab_residual_table_collect__leak__white_only_when_completed)
