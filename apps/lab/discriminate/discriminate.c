@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../base/clock.h"
 #include "../fit/fit.h"
 #include "discriminate_private.h"
 
@@ -199,11 +200,13 @@ static int survey(design *s, const lab_forecast_model *model, const pneu_params 
   const long many_steps = 3000; /* smooth ones take 50 to 500 */
   int i, status = LAB_OK;
 #pragma omp parallel for schedule(dynamic)
-  for (i = 0; i < s->n; i++) {
+  for (i = s->n - 1; i >= 0; i--) { /* the record, which all are compared with, is the last */
     lab_error mine;
     long steps = 0;
     int c;
-    const int at = survey_one(&s->forecast[i], model, a, b, s->bundle[i], &steps, &mine);
+    const int at = lab_cpu_is_spent(s->request.until)
+                       ? LAB_NUMERIC
+                       : survey_one(&s->forecast[i], model, a, b, s->bundle[i], &steps, &mine);
     s->failed[i] = at != LAB_OK;
     s->jerky[i] = steps > many_steps;
     for (c = 0; at != LAB_OK && c < LAB_FORECAST_CHANNELS; c++)
@@ -234,8 +237,12 @@ static int open_design(const lab_advice_request *request, const lab_forecast_mod
     say_nothing(advice, error->text);
     error->status = error->status == LAB_WORLD ? LAB_WORLD : LAB_OK;
   } else if (survey(s, model, a, b, error) == LAB_OK) {
-    *made = s;
-    return LAB_OK;
+    if (!s->failed[s->n - 1] || !lab_cpu_is_spent(request->until)) {
+      *made = s;
+      return LAB_OK;
+    }
+    say_nothing(advice, "there was no time to look for one");
+    error->status = LAB_OK;
   }
   close_design(s);
   return error->status;
@@ -486,7 +493,7 @@ static int find_best(const design *s, const lab_advice_request *q, const pair *p
   }
   for (tries = 0; tries < TRIES; tries++) {
     i = lab_trial_choose(&s->plans, value, enough);
-    if (i < 0 || !isnan(settled[i]) || !(value[i] > clear))
+    if (i < 0 || !isnan(settled[i]) || !(value[i] > clear) || lab_cpu_is_spent(q->until))
       break;
     if (settle(s, q, p, i, &value[i], error))
       return error->status;

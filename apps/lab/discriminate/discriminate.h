@@ -28,6 +28,7 @@ typedef struct lab_advice_request {
   int n_known;    /* the first of these, whose intervals are narrowed only where none of the others can be */
   const lab_schedule *recorded; /* what has been recorded; NULL: a fill and vent */
   double recorded_duration;     /* [s] from its first row */
+  double until;                 /* [s] of CPU time (lab_cpu_time) from when on no more is simulated; 0: no end */
 } lab_advice_request;
 
 enum lab_advice_kind {

@@ -204,7 +204,8 @@ static int can_foresee(const lab_advice_request *q)
   return 0;
 }
 
-static int advise(lab_answer *a, lab_error *error)
+/* In:  until  [s] of CPU time; 0: no end */
+static int advise(lab_answer *a, double until, lab_error *error)
 {
   lab_report *report = &a->report;
   const lab_search_result *r = report->result;
@@ -213,6 +214,7 @@ static int advise(lab_answer *a, lab_error *error)
   lab_rig last;
   lab_rig_at(&report->completed->rig, INFINITY, &last);
   inquire(report, &q);
+  q.until = until;
   if (!can_foresee(&q))
     return LAB_OK;
   for (i = 0; i < r->n_found; i++) {
@@ -599,6 +601,7 @@ static int leave_as_declared(lab_answer *a, lab_error *error)
 static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
 {
   static const double without_u = 0.75, beside = 0.6; /* of the budget, by judgement: the rest is for u, the baseline */
+  static const double most = 0.75; /* of it, until when a test to record is looked for; what is under way goes on */
   const allowance time = {lab_cpu_time(), (a->now.logs.n_without_u > 0 ? without_u : 1) * q->budget};
   const allowance own = {time.start, (a->then.logs.n > 0 ? beside : 1) * time.budget};
   const double start = lab_clock();
@@ -622,7 +625,7 @@ static int close_loop(const lab_request *q, lab_answer *a, lab_error *error)
     return error->status;
   if (!a->now.result.cut_short && a->then.logs.n == 0) { /* with a baseline the question is what has changed */
     on_progress(q, "looking for the test to record next");
-    if (advise(a, error))
+    if (advise(a, time.budget > 0 ? time.start + most * time.budget : 0, error))
       return error->status;
   }
   a->report.total_s = lab_clock() - start;

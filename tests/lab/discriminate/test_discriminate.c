@@ -421,6 +421,17 @@ TEST(test_lab_advise_precision__stribeck_undetected__asks_for_slow_motion)
   assert_true(advice.after < 0.1 * advice.before);
 }
 
+/* Where the time is spent nothing is simulated, and that is what is said. */
+TEST(test_lab_advise_precision__no_time__says_so)
+{
+  const lab_rig rig = make_rig();
+  lab_advice_request q = make_inquiry(&rig);
+  q.until = 1e-9;
+  succeed(lab_advise_precision(&q, &rig.params, &advice, &error));
+  assert_int_equal(advice.kind, LAB_ADVICE_NONE);
+  assert_string_equal(advice.text, "there was no time to look for one");
+}
+
 /* What was found is to be known first, though a fitted value may be known less well; what is not, where nothing was
  * found. */
 TEST(test_lab_advise_precision__what_was_found__goes_first)
