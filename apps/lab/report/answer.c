@@ -15,6 +15,7 @@
 #include "../fit/drift.h"
 #include "../fit/weights.h"
 #include "../metrics/recording.h"
+#include "../trace/alone.h"
 #include "../trace/apart.h"
 #include "figures.h"
 #include "judge.h"
@@ -508,6 +509,29 @@ static int search_near_sheet(const lab_search_options *how, lab_completion *c, l
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
+/* Search; where that takes values far off their sheet, once more from the one value that may be off alone. That answer
+ * is taken if it explains the logs. */
+static int search_alone(const lab_search_options *how, lab_completion *c, lab_error *error)
+{
+  lab_completion *first;
+  int any, status = search_near_sheet(how, c, error);
+  if (status != LAB_OK || c->result.cut_short || !c->result.is_far)
+    return status;
+  first = malloc(sizeof *first);
+  if (!first)
+    return lab_fail_memory(error, "a search from one value");
+  *first = *c;
+  status = lab_alone_find(&c->declared, &c->completed, &any, error);
+  if (status == LAB_OK && any)
+    status = lab_search_run(&c->completed, how, &c->result, error);
+  if (status != LAB_OK || !any || !lab_search_explains(&c->result))
+    *c = *first;
+  c->result.before = first->result.before;
+  memcpy(c->result.left[LAB_STAGE_BEFORE], first->result.left[LAB_STAGE_BEFORE], sizeof first->result.left[0]);
+  free(first);
+  return status == LAB_NUMERIC ? LAB_OK : status;
+}
+
 /* Search with what the logs share; where something seems to differ from log to log that is half of the time, and the
  * rest is for a search with values of each log. */
 static int search_apart(const lab_search_options *how, lab_completion *c, lab_error *error)
@@ -519,7 +543,7 @@ static int search_apart(const lab_search_options *how, lab_completion *c, lab_er
     c->declared.until = now + (end - now) / 2;
   c->completed = c->declared;
   if (status == LAB_OK)
-    status = search_near_sheet(how, c, error);
+    status = search_alone(how, c, error);
   if (status == LAB_OK && c->declared.most_off > 0)
     lab_unknowns_stay_near(&apart->declared, c->declared.most_off);
   if (status == LAB_OK)
