@@ -494,17 +494,17 @@ static int may_have_changed(const lab_sides *c, lab_error *error)
 }
 
 /* Take up the first suspect that explains the new logs.  Out: taken */
-static int take_suspect(lab_sides *c, double alpha, int *taken, lab_error *error)
+static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, lab_error *error)
 {
-  const double level = alpha / (LAB_SCORES_MAX * LAB_ONSET_PLACES); /* as many tests as there may be */
+  const double level = of->alpha / (LAB_SCORES_MAX * LAB_ONSET_PLACES); /* as many tests as there may be */
   extension *x = calloc(1, sizeof *x);
   int i, k, count;
   *taken = 0;
   if (!x)
     return lab_fail_memory(error, "changes");
   error->status = LAB_OK;
-  for (i = 0; i < c->n_suspects && !*taken && error->status == LAB_OK; i++) {
-    const lab_suspect *s = &c->suspect[i];
+  for (i = 0; i < of->n_suspects && !*taken && error->status == LAB_OK; i++) {
+    const lab_suspect *s = &of->suspect[i];
     x->u = c->u;
     refit_from(c, &s->score, s->score.size, level, NULL, x, error);
     *taken = explains(c, x) && is_change(c, x, level, error);
@@ -518,17 +518,17 @@ static int take_suspect(lab_sides *c, double alpha, int *taken, lab_error *error
   return error->status;
 }
 
-static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *error)
+static int compare(lab_sides *c, const lab_comparison *of, lab_changes *changes, lab_error *error)
 {
   extension *course = malloc(sizeof *course);
   int unknown = 0, taken = 0, status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
   if (status == LAB_OK && !course->fitted)
-    status = take_suspect(c, alpha, &taken, error);
+    status = take_suspect(c, of, &taken, error);
   if (status == LAB_OK && !taken)
     status = lab_sides_approach(&c->u, &c->chi2, error);
   if ((status == LAB_OK && (taken || course->fitted || may_have_changed(c, error))) ||
       (status == LAB_NUMERIC && course->fitted))
-    status = take_all(c, alpha, course, changes, error);
+    status = take_all(c, of->alpha, course, changes, error);
   free(course);
   if (status != LAB_OK)
     return status;
@@ -536,18 +536,13 @@ static int compare(lab_sides *c, double alpha, lab_changes *changes, lab_error *
   return describe(c, changes, &unknown, error) ? error->status : conclude(c, unknown, changes, error);
 }
 
-int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, int n_now, const lab_suspect *suspects,
-                     int n_suspects, double alpha, lab_changes *changes, lab_error *error)
+int lab_changes_find(const lab_comparison *of, lab_changes *changes, lab_error *error)
 {
   lab_sides *c = calloc(1, sizeof *c);
-  int status = c ? lab_sides_join(then, decided, now, n_now, c, error) : lab_fail_memory(error, "a comparison");
+  int status = c ? lab_sides_join(of, c, error) : lab_fail_memory(error, "a comparison");
   memset(changes, 0, sizeof *changes);
-  if (c) {
-    c->suspect = suspects;
-    c->n_suspects = n_suspects;
-  }
   if (status == LAB_OK)
-    status = compare(c, alpha, changes, error);
+    status = compare(c, of, changes, error);
   if (c && is_out_of_time(c, status)) {
     snprintf(changes->why, sizeof changes->why, "the comparison was ended by --budget");
     status = LAB_OK;

@@ -41,14 +41,19 @@ typedef struct lab_changes {
 const char *lab_change_name(int param, char name[LAB_PARAM_NAME_TEXT]);
 const char *lab_change_unit(const lab_change *change);
 
-/* Compare.
- * In:      then      completed on the baseline, fitted, row by row
- *          decided   not 0: it leaves only noise there
- *          now       n_now runs of the new logs, of the same rig
- *          suspects  n_suspects differences that are asked first: one that leaves only noise needs no others
- *          alpha     chance of naming a change where there is none
- * Returns: LAB_OK; LAB_DATA if there are too many runs; LAB_NUMERIC, LAB_WORLD. */
-int lab_changes_find(const lab_unknowns *then, int decided, const lab_run *now, int n_now, const lab_suspect *suspects,
-                     int n_suspects, double alpha, lab_changes *changes, lab_error *error);
+/* What is compared with what. */
+typedef struct lab_comparison {
+  const lab_unknowns *then; /* completed on the baseline, fitted, row by row */
+  int decided;              /* not 0: it leaves only noise there */
+  const lab_run *now;       /* n_now runs of the new logs, of the same rig */
+  int n_now;
+  const lab_suspect
+      *suspect; /* n_suspects differences to be asked first: one that explains the new logs needs no others */
+  int n_suspects;
+  double alpha; /* chance of naming a change where there is none */
+} lab_comparison;
+
+/* Compare.  Returns: LAB_OK; LAB_DATA if there are too many runs; LAB_NUMERIC, LAB_WORLD. */
+int lab_changes_find(const lab_comparison *of, lab_changes *changes, lab_error *error);
 
 #endif

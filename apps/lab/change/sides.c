@@ -220,19 +220,21 @@ void lab_sides_whole(const lab_sides *c, const lab_unknowns *u, lab_unknowns *wh
   lab_unknowns_count(whole);
 }
 
-int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, int n_now, lab_sides *c, lab_error *error)
+int lab_sides_join(const lab_comparison *of, lab_sides *c, lab_error *error)
 {
+  const lab_unknowns *then = of->then;
+  const int n_now = of->n_now;
   int e;
   if (then->n_runs + n_now > LAB_FIT_MAX)
     return lab_fail(error, LAB_DATA, "more than %d runs to compare", (int)LAB_FIT_MAX);
   memcpy(c->run, then->run, (size_t)then->n_runs * sizeof *c->run);
-  memcpy(c->run + then->n_runs, now, (size_t)n_now * sizeof *c->run);
+  memcpy(c->run + then->n_runs, of->now, (size_t)n_now * sizeof *c->run);
   for (e = 0; e < then->n_runs + n_now; e++)
     c->run[e].drift = NULL; /* from one day to the next a sensor is off by what add_repeats allows */
   memcpy(c->white, c->run, sizeof c->white);
   c->u = c->base = *then;
   c->first = then->n_runs;
-  c->decided = decided;
+  c->decided = of->decided;
   c->row = longest_row(c->run, then->n_runs + n_now);
   if (follow_to_first_order(c, error))
     return error->status;

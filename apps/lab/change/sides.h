@@ -21,18 +21,14 @@ typedef struct lab_sides {
   int n;
   lab_change change[LAB_CHANGES_MAX]; /* what was taken up */
   int shape[LAB_CHANGES_MAX];
-  const lab_suspect *suspect; /* to be asked first */
-  int n_suspects;
   double
       followed; /* by how much chi-square fell when the supply was followed, which is the last change; 0: it was not */
   int n_followed; /* what that fitted */
 } lab_sides;
 
 /* Put both together, from the model of the baseline, not yet fitted.
- * In:  as lab_changes_find
  * Out: c  zeros before; c->old to be closed, also after an error */
-int lab_sides_join(const lab_unknowns *then, int decided, const lab_run *now, int n_now, lab_sides *c,
-                   lab_error *error);
+int lab_sides_join(const lab_comparison *of, lab_sides *c, lab_error *error);
 
 /* Place of a change among the unknowns, the last one of a parameter; -1 if it is none of them. */
 int lab_sides_find(const lab_unknowns *u, int param);

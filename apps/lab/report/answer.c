@@ -589,8 +589,8 @@ static int compare(const lab_request *q, const allowance *time, lab_answer *a, l
   lab_completion *then = &a->then;
   const lab_limitations *doubtful = a->now.logs.limitations.doubt ? &a->now.logs.limitations : &then->logs.limitations;
   lab_suspect suspect[LAB_SUSPECTS_MAX];
+  lab_comparison of = {.then = &then->completed, .now = a->now.logs.run, .n_now = a->now.logs.n, .suspect = suspect};
   double fit_s;
-  int n;
   if (then->logs.n == 0)
     return LAB_OK;
   a->report.changes = &a->changes;
@@ -603,10 +603,11 @@ static int compare(const lab_request *q, const allowance *time, lab_answer *a, l
     return error->status;
   on_progress(q, "looking for what has changed");
   then->completed.until = time->budget > 0 ? time->start + both * time->budget : 0;
-  n = lab_suspects_find(&(lab_explained){&then->completed, &then->result},
-                        &(lab_explained){&a->now.completed, &a->now.result}, suspect);
-  if (lab_changes_find(&then->completed, !lab_values_stand_in(then->result.verdict, then->result.fit.reduced_chi2),
-                       a->now.logs.run, a->now.logs.n, suspect, n, q->alpha, &a->changes, error))
+  of.alpha = q->alpha;
+  of.decided = !lab_values_stand_in(then->result.verdict, then->result.fit.reduced_chi2);
+  of.n_suspects = lab_suspects_find(&(lab_explained){&then->completed, &then->result},
+                                    &(lab_explained){&a->now.completed, &a->now.result}, suspect);
+  if (lab_changes_find(&of, &a->changes, error))
     return error->status;
   lab_unknowns_settle(&then->completed, &then->result.fit);
   a->report.baseline = &then->completed.rig;

@@ -40,7 +40,7 @@ static void compare_logs(const char *const path[2])
     virtual_open(&rig, path[i], &log[i], &run[i]);
   succeed(lab_unknowns_open(&rig, run, 1, &u, &error));
   succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
-  succeed(lab_changes_find(&u, 1, run + 1, 1, &suspect, n_suspects, 0.01, &changes, &error));
+  succeed(lab_changes_find(&(lab_comparison){&u, 1, run + 1, 1, &suspect, n_suspects, 0.01}, &changes, &error));
 }
 
 static void compare_files(const char *rig_name, const char *then, const char *now)
