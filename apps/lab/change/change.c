@@ -72,11 +72,12 @@ static int may_catch_up(const extension *x, const extension *leader)
 static int refit_from(const lab_sides *c, const lab_score *score, double size, double level, const extension *leader,
                       extension *x, lab_error *all)
 {
-  const double aim = leader ? leader->unplaced : HUGE_VAL;
+  const double aim = leader ? leader->unplaced + lab_constant(LAB_ALIKE_BIC) : HUGE_VAL;
   lab_error error = {LAB_OK, ""};
   x->param = score->param;
   x->shape = score->shape;
   x->fitted = 0;
+  memset(&x->begin, 0, sizeof x->begin);
   if (lab_sides_release(&x->u, c->first, score, size, &error) == LAB_OK &&
       (score->shape < 0 || lab_unknowns_add(&x->u, score->shape, score->shape_value, &error) == LAB_OK) &&
       lab_sides_settle(&x->u, aim, &x->chi2, &error) == LAB_OK) {
@@ -426,7 +427,9 @@ static int conclude(lab_sides *c, int unknown, lab_changes *changes, lab_error *
     return error->status;
   changes->then = left.then;
   changes->now = left.now;
-  changes->condition = changes->n ? LAB_SINCE_CHANGED : LAB_SINCE_UNCHANGED;
+  changes->condition = changes->n      ? LAB_SINCE_CHANGED
+                       : *changes->why ? LAB_SINCE_CANNOT_TELL /* the time is spent */
+                                       : LAB_SINCE_UNCHANGED;
   if (lab_rest_is_doubtful(&left)) {
     if (left.now > stand_ins * fmax(left.then, 1))
       changes->n = 0;
@@ -493,10 +496,16 @@ static int may_have_changed(const lab_sides *c, lab_error *error)
   return c->decided || lab_sides_rest(&c->u, c->first, &left, error) || lab_rest_is_more_than_noise(&left);
 }
 
+/* The level of one test where there are as many as there may be. */
+static double most_tests(double alpha)
+{
+  return alpha / (LAB_SCORES_MAX * LAB_ONSET_PLACES);
+}
+
 /* Take up the first suspect that explains the new logs.  Out: taken */
 static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, lab_error *error)
 {
-  const double level = of->alpha / (LAB_SCORES_MAX * LAB_ONSET_PLACES); /* as many tests as there may be */
+  const double level = most_tests(of->alpha);
   extension *x = calloc(1, sizeof *x);
   int i, k, count;
   *taken = 0;
@@ -541,6 +550,7 @@ int lab_changes_find(const lab_comparison *of, lab_changes *changes, lab_error *
   lab_sides *c = calloc(1, sizeof *c);
   int status = c ? lab_sides_join(of, c, error) : lab_fail_memory(error, "a comparison");
   memset(changes, 0, sizeof *changes);
+  changes->level = most_tests(of->alpha);
   if (status == LAB_OK)
     status = compare(c, of, changes, error);
   if (c && is_out_of_time(c, status)) {

@@ -276,6 +276,7 @@ static size_t rows_of(const lab_unknowns *u, int first)
 
 int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *error)
 {
+  size_t i;
   double *r = malloc((u->m + 1) * sizeof *r);
   const int status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK) {
@@ -283,8 +284,9 @@ int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *
     left->now = left_of(u, r, first, u->n_runs);
     left->n = rows_of(u, first);
     left->chi2 = lab_dot(r, r, u->m);
-    left->n_priors = (int)(u->m - lab_unknowns_before_priors(u));
-    left->priors = lab_dot(r + u->m - left->n_priors, r + u->m - left->n_priors, (size_t)left->n_priors);
+    left->strain = 0;
+    for (i = lab_unknowns_before_priors(u); i < u->m; i++)
+      left->strain = fmax(left->strain, fabs(r[i]));
   }
   free(r);
   return status;
@@ -316,9 +318,10 @@ int lab_rest_spoils_baseline(const lab_rest *left)
 
 int lab_rest_is_as_before(const lab_rest *left)
 {
-  const double deviations = lab_constant(LAB_NOISE_DEVIATIONS), before = fmax(left->then, 1);
-  return left->now * left->now <= before * before * (1 + deviations * sqrt(2 / (double)left->n)) &&
-         left->priors <= left->n_priors + deviations * sqrt(2 * (double)left->n_priors);
+  static const double most = 4; /* deviations from what a value may be, by judgement */
+  const double deviations = lab_constant(LAB_NOISE_DEVIATIONS) * sqrt(2 / (double)left->n),
+               before = fmax(left->then, 1);
+  return left->now * left->now <= before * before * (1 + deviations) && left->strain <= most;
 }
 
 int lab_rest_is_more_than_noise(const lab_rest *left)

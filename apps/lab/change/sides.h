@@ -53,9 +53,9 @@ void lab_sides_whole(const lab_sides *c, const lab_unknowns *u, lab_unknowns *wh
 /* What is left of either side, [1] over what counts as noise. */
 typedef struct lab_rest {
   double then, now;
-  size_t n;            /* values of the new logs */
-  double chi2, priors; /* priors: of these, what is known beforehand is off by */
-  int n_priors;
+  size_t n; /* values of the new logs */
+  double chi2;
+  double strain; /* [1] deviations by which what is known beforehand is off, the largest */
 } lab_rest;
 
 /* In:      first  run of the new logs

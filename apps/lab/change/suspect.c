@@ -6,11 +6,10 @@
 
 #include "repeat.h"
 
-/* The deviation of an unknown, 0 where it has none. */
+/* The deviation of an unknown, 0 without one. */
 static double deviation_of(const lab_explained *e, int j)
 {
-  const double deviation = j < 0 ? 0 : e->result->fit.deviation[j];
-  return isfinite(deviation) ? deviation : 0;
+  return j < 0 ? 0 : e->result->fit.deviation[j];
 }
 
 static const lab_repeat *find_repeat(int param)
@@ -22,20 +21,23 @@ static const lab_repeat *find_repeat(int param)
   return NULL;
 }
 
-/* Whether it is among what a comparison tests: effects, what changes from day to day but the weather, what is fitted.
- */
+/* Whether it is among what a comparison tests: effects, what changes from day to day but the weather, what is fitted;
+ * not what each log has for itself, and how warm its gas is at first. */
 static int can_change(const lab_unknowns *then, int param)
 {
   const lab_repeat *repeat = find_repeat(param);
-  const int j = lab_unknowns_find(then, param);
-  return repeat ? repeat->tested : pneu_effect_of(param) >= 0 || (j >= 0 && !lab_unknown_is_held(&then->unknown[j]));
+  const int j = lab_unknowns_find(then, param), effect = pneu_effect_of(param);
+  if ((j >= 0 && then->unknown[j].run != LAB_ALL_RUNS) || effect == pneu_effect_find("start_temperature"))
+    return 0;
+  return repeat ? repeat->tested : effect >= 0 || (j >= 0 && !lab_unknown_is_held(&then->unknown[j]));
 }
 
 /* How far a sound rig may have it elsewhere on another day. */
-static double day_to_day(const lab_rig *rig, int param)
+static double day_to_day(const lab_unknowns *now, int param)
 {
   const lab_repeat *repeat = find_repeat(param);
-  return repeat ? lab_repeat_spread(repeat, rig, 0) : 0;
+  const double *t = now->run->log->value[LAB_CHANNEL_TIME] + now->run->first;
+  return repeat ? lab_repeat_spread(repeat, &now->rig, (t[now->run->n - 1] - t[0]) / (double)now->run->n) : 0;
 }
 
 static const lab_found *find_found(const lab_search_result *r, int param)
@@ -67,13 +69,29 @@ static size_t row_at(const lab_run *run, double t)
   return i;
 }
 
-/* The parameter that an unknown is the value of, throughout or from an onset on; -1 if it is none that can change. */
-static int param_of(const lab_unknowns *u, const lab_unknown *x, const lab_unknowns *then)
+/* The parameter that unknown j is the value of, throughout or from an onset on; -1 if the logs do not tell it, or it is
+ * none that can change. */
+static int param_of(const lab_explained *then, const lab_explained *now, int j)
 {
+  const lab_unknown *x = &now->u->unknown[j];
   const int param = x->kind == LAB_UNKNOWN_PARAM   ? x->index
-                    : x->kind == LAB_UNKNOWN_ONSET ? u->rig.onset[x->index].param
+                    : x->kind == LAB_UNKNOWN_ONSET ? now->u->rig.onset[x->index].param
                                                    : -1;
-  return param >= 0 && x->run == LAB_ALL_RUNS && !lab_param_info(param).shape && can_change(then, param) ? param : -1;
+  const int is_value = param >= 0 && x->run == LAB_ALL_RUNS && !lab_param_info(param).shape;
+  return is_value && now->result->fit.state[j] == LAB_STATE_FREE && can_change(then->u, param) &&
+                 (pneu_effect_of(param) < 0 || find_found(now->result, param))
+             ? param
+             : -1;
+}
+
+/* The value of unknown j; of the areas from an onset on, their factor over that before is told. */
+static double value_of(const lab_unknowns *u, int j)
+{
+  const int before =
+      u->unknown[j].kind == LAB_UNKNOWN_ONSET && u->rig.onset[u->unknown[j].index].param == LAB_PARAM_ORIFICE_AREA
+          ? lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA)
+          : -1;
+  return (before < 0 ? 1 : u->unknown[before].value) * u->unknown[j].value;
 }
 
 /* By how much unknown j of the model of the new logs, which is a parameter's value, is off that of the old ones. */
@@ -82,15 +100,15 @@ static lab_suspect differ(const lab_explained *then, const lab_explained *now, i
   const lab_unknown *x = &now->u->unknown[j];
   const int before = lab_unknowns_find(then->u, param), shape = shape_beside(then->u, now->u, param);
   const double was = before >= 0 ? then->u->unknown[before].value : lab_param_value(&then->u->rig, param);
-  const double known = hypot(deviation_of(now, j), deviation_of(then, before));
+  const double off = value_of(now->u, j) - was, known = hypot(deviation_of(now, j), deviation_of(then, before));
   lab_suspect s = {.found = find_found(now->result, param)};
   s.score.effect = pneu_effect_of(param);
   s.score.param = param;
   s.score.shape = shape;
   s.score.shape_value = shape < 0 ? 0 : lab_param_value(&now->u->rig, shape);
   s.score.onset = x->kind == LAB_UNKNOWN_ONSET ? row_at(now->u->run, now->u->rig.onset[x->index].from) : 0;
-  s.score.size = param == LAB_PARAM_ORIFICE_AREA ? x->value / was - 1 : x->value - was;
-  s.score.statistic = pow((x->value - was) / hypot(known, day_to_day(&then->u->rig, param)), 2);
+  s.score.size = param == LAB_PARAM_ORIFICE_AREA ? off / was : off;
+  s.score.statistic = pow(off / hypot(known, day_to_day(now->u, param)), 2);
   return s;
 }
 
@@ -112,7 +130,7 @@ int lab_suspects_find(const lab_explained *then, const lab_explained *now, lab_s
   if (!lab_search_explains(then->result) || !lab_search_explains(now->result))
     return 0;
   for (j = 0; j < now->u->n; j++) {
-    const int param = param_of(now->u, &now->u->unknown[j], then->u);
+    const int param = param_of(then, now, j);
     if (param >= 0)
       all[n] = differ(then, now, j, param);
     n += param >= 0 && all[n].score.statistic > plainly;

@@ -28,7 +28,10 @@ typedef struct design {
   lab_normal bundle[LAB_TEST_PLAN_MAX + 1][LAB_FORECAST_CHANNELS];
   int failed[LAB_TEST_PLAN_MAX + 1]; /* not 0: could not be simulated; its bundle is empty */
   int jerky[LAB_TEST_PLAN_MAX + 1];  /* not 0: stick-slip throughout, too long to simulate many times */
+  int left_out;                      /* not 0: the time was spent before all were simulated */
 } design;
+
+static const char no_time[] = "there was no time to look for one";
 
 /* ---- Words and choice ---- */
 
@@ -204,9 +207,12 @@ static int survey(design *s, const lab_forecast_model *model, const pneu_params 
     lab_error mine;
     long steps = 0;
     int c;
-    const int at = lab_cpu_is_spent(s->request.until)
-                       ? LAB_NUMERIC
-                       : survey_one(&s->forecast[i], model, a, b, s->bundle[i], &steps, &mine);
+    const int is_late = lab_cpu_is_spent(s->request.until);
+    const int at = is_late ? LAB_NUMERIC : survey_one(&s->forecast[i], model, a, b, s->bundle[i], &steps, &mine);
+    if (is_late) {
+#pragma omp atomic write
+      s->left_out = 1;
+    }
     s->failed[i] = at != LAB_OK;
     s->jerky[i] = steps > many_steps;
     for (c = 0; at != LAB_OK && c < LAB_FORECAST_CHANNELS; c++)
@@ -237,12 +243,8 @@ static int open_design(const lab_advice_request *request, const lab_forecast_mod
     say_nothing(advice, error->text);
     error->status = error->status == LAB_WORLD ? LAB_WORLD : LAB_OK;
   } else if (survey(s, model, a, b, error) == LAB_OK) {
-    if (!s->failed[s->n - 1] || !lab_cpu_is_spent(request->until)) {
-      *made = s;
-      return LAB_OK;
-    }
-    say_nothing(advice, "there was no time to look for one");
-    error->status = LAB_OK;
+    *made = s;
+    return LAB_OK;
   }
   close_design(s);
   return error->status;
@@ -594,8 +596,8 @@ static int advise(const design *s, const pair *p, lab_advice *advice, lab_error 
     say_trial(s, advice);
     return LAB_OK;
   }
-  if (best < 0) {
-    say_nothing(advice, "no schedule of the set can be simulated with both models");
+  if (best < 0 || s->left_out) {
+    say_nothing(advice, s->left_out ? no_time : "no schedule of the set can be simulated with both models");
     return LAB_OK;
   }
   snprintf(advice->text, LAB_ADVICE_TEXT,
@@ -730,7 +732,7 @@ int lab_advise_precision(const lab_advice_request *request, const pneu_params *p
     find_all(s, &w);
     if (!narrow(s, &model, &w, request->n_known, model.n, advice) &&
         !narrow(s, &model, &w, 0, request->n_known, advice))
-      say_nothing(advice, "no schedule of the set narrows an interval by a tenth");
+      say_nothing(advice, s->left_out ? no_time : "no schedule of the set narrows an interval by a tenth");
   }
   close_design(s);
   return LAB_OK;

@@ -126,7 +126,8 @@ static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_r
 {
   const lab_unknown *x = &u->unknown[j];
   const int param = d->param = param_of(u, x);
-  const double tolerance = x->tolerance > 0 ? x->tolerance : lab_tolerance(rig, param);
+  const double tolerance = (x->tolerance > 0 ? x->tolerance : lab_tolerance(rig, param)) +
+                           (x->kind == LAB_UNKNOWN_PARAM ? beside(rig, param) : 0);
   const double unit = earlier_factor(u, x);
   d->declared = lab_param_value(rig, param);
   snprintf(d->name, sizeof d->name, "%s", lab_tolerance_name(param));
@@ -137,7 +138,7 @@ static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_r
   d->ratio = d->declared != 0 ? d->found / d->declared : (double)NAN;
   d->tolerance = d->declared != 0 ? tolerance / fabs(d->declared) : tolerance;
   d->held = lab_unknown_is_held(x) || lab_unknown_is_let_go(x);
-  d->beyond = is_beyond(d, tolerance + beside(rig, param));
+  d->beyond = is_beyond(d, tolerance);
   return tolerance > 0 ? fabs(d->found - d->declared) / tolerance : (double)INFINITY;
 }
 

@@ -598,26 +598,44 @@ static const double held_least = 0.2;
 /* The highest pressure of air that weather and depth make, about [Pa]: 108.5 kPa was measured (Tosontsengel, 2001). */
 static const double highest_ambient = 110e3;
 
+/* Hold a declared value.  Returns: as lab_unknowns_add */
+static int hold(lab_unknowns *u, const lab_rig *declared, int param, double tolerance, lab_error *error)
+{
+  lab_unknown *x;
+  if (lab_unknowns_add(u, param, lab_param_value(&u->rig, param), error))
+    return error->status;
+  x = &u->unknown[u->n - 1];
+  x->prior = x->first = lab_param_value(declared, param);
+  if (x->prior > 0 && !lab_param_is_of_sensor(param))
+    x->lower = fmax(x->lower, held_least * x->prior);
+  if (param == PNEU_PARAM_ambient_pressure)
+    x->upper = fmax(x->prior, highest_ambient);
+  x->spread = x->tolerance = x->scale = tolerance;
+  return LAB_OK;
+}
+
 int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
 {
   lab_rig declared = u->rig;
-  int param;
+  int param, status = LAB_OK;
   declared.params = u->declared;
-  for (param = 0; param < LAB_PARAM_COUNT; param++) {
+  for (param = 0; param < LAB_PARAM_COUNT && status == LAB_OK; param++) {
     const double tolerance = to_hold(u, &declared, param);
-    lab_unknown *x;
-    if (!(tolerance > 0))
-      continue;
-    if (lab_unknowns_add(u, param, lab_param_value(&u->rig, param), error))
-      return error->status;
-    x = &u->unknown[u->n - 1];
-    x->prior = x->first = lab_param_value(&declared, param);
-    if (x->prior > 0 && !lab_param_is_of_sensor(param))
-      x->lower = fmax(x->lower, held_least * x->prior);
-    if (param == PNEU_PARAM_ambient_pressure)
-      x->upper = fmax(x->prior, highest_ambient);
-    x->spread = x->tolerance = x->scale = tolerance;
+    if (tolerance > 0)
+      status = hold(u, &declared, param, tolerance, error);
   }
+  if (status == LAB_OK)
+    lab_unknowns_view(u, u->window);
+  return status;
+}
+
+int lab_unknowns_free_value(lab_unknowns *u, int param, lab_error *error)
+{
+  lab_rig declared = u->rig;
+  declared.params = u->declared;
+  if (hold(u, &declared, param, lab_tolerance(&declared, param), error))
+    return error->status;
+  lab_unknowns_let_go(u, u->n - 1);
   lab_unknowns_view(u, u->window);
   return LAB_OK;
 }
@@ -631,7 +649,7 @@ void lab_unknowns_let_go(lab_unknowns *u, int j)
 
 int lab_unknown_is_let_go(const lab_unknown *x)
 {
-  return x->kind == LAB_UNKNOWN_PARAM && x->index < PNEU_PARAM_BASE_COUNT && x->tolerance > 0 && x->spread == 0;
+  return x->kind == LAB_UNKNOWN_PARAM && lab_param_is_value(x->index) && x->tolerance > 0 && x->spread == 0;
 }
 
 static void move_result(lab_fit_result *r, int from, int to)

@@ -109,6 +109,9 @@ int lab_param_twin(int param);
 /* Whether parameter `param` is an error of a sensor, and no value of the rig. */
 int lab_param_is_of_sensor(int param);
 
+/* Let a declared value vary that was not held.  Returns: LAB_OK; LAB_DATA if there is no room. */
+int lab_unknowns_free_value(lab_unknowns *u, int param, lab_error *error);
+
 /* Let a held value go: nothing is known of it any more, but it is still compared with its declared value. */
 void lab_unknowns_let_go(lab_unknowns *u, int j);
 

@@ -514,8 +514,8 @@ static int search_near_sheet(const lab_search_options *how, lab_completion *c, l
 static int search_alone(const lab_search_options *how, lab_completion *c, lab_error *error)
 {
   lab_completion *first;
-  int any, status = search_near_sheet(how, c, error);
-  if (status != LAB_OK || c->result.cut_short || !c->result.is_far)
+  int any, spent, status = search_near_sheet(how, c, error);
+  if (status != LAB_OK || !c->result.is_far || lab_cpu_is_spent(c->declared.until))
     return status;
   first = malloc(sizeof *first);
   if (!first)
@@ -524,8 +524,11 @@ static int search_alone(const lab_search_options *how, lab_completion *c, lab_er
   status = lab_alone_find(&c->declared, &c->completed, &any, error);
   if (status == LAB_OK && any)
     status = lab_search_run(&c->completed, how, &c->result, error);
-  if (status != LAB_OK || !any || !lab_search_explains(&c->result))
+  spent = lab_cpu_is_spent(c->declared.until);
+  if (status != LAB_OK || !any || !lab_search_explains(&c->result)) {
     *c = *first;
+    c->result.cut_short |= spent;
+  }
   c->result.before = first->result.before;
   memcpy(c->result.left[LAB_STAGE_BEFORE], first->result.left[LAB_STAGE_BEFORE], sizeof first->result.left[0]);
   free(first);

@@ -459,12 +459,16 @@ const char *lab_report_found_sentence(const lab_report *report, const lab_found 
   return text;
 }
 
-/* Whether it is told as what has changed. */
+/* Whether it is told as what has changed, or as what the logs cannot tell from that. */
 static int has_changed(const lab_report *report, int param)
 {
-  int i, any = 0;
-  for (i = 0; report->changes && i < report->changes->n; i++)
-    any |= report->changes->change[i].param == param;
+  int i, k, any = 0;
+  for (i = 0; report->changes && i < report->changes->n; i++) {
+    const lab_change *change = &report->changes->change[i];
+    any |= change->param == param;
+    for (k = 0; k < change->n_alike; k++)
+      any |= pneu_effect_of(change->alike[k]) >= 0 && pneu_effect_of(change->alike[k]) == pneu_effect_of(param);
+  }
   return any;
 }
 

@@ -1,7 +1,5 @@
 #include "alone.h"
 
-#include <stdlib.h>
-
 #include "../base/clock.h"
 #include "../rig/tolerance.h"
 #include "decide.h"
@@ -17,46 +15,47 @@ static int is_as_declared(const lab_unknowns *u, int param)
           (lab_unknowns_find(u, PNEU_PARAM_fill_area) < 0 && lab_unknowns_find(u, PNEU_PARAM_vent_area) < 0));
 }
 
-/* The declared model with one value let go.
+/* The declared model with one value free.
  * In:      steps  as for lab_unknowns_fit */
 static int fit_with(const lab_unknowns *declared, int param, int steps, lab_unknowns *u, double *chi2, lab_error *error)
 {
-  lab_unknown *x;
   *u = *declared;
   u->slopes = NULL; /* those are of fewer unknowns */
-  if (lab_unknowns_add(u, param, lab_param_value(&u->rig, param), error))
-    return error->status;
-  x = &u->unknown[u->n - 1];
-  x->prior = x->first = x->value;
-  x->tolerance = lab_tolerance(&u->rig, param);
-  lab_unknowns_let_go(u, u->n - 1);
-  lab_unknowns_view(u, u->window);
-  return lab_unknowns_fit(u, steps, chi2, error);
+  return lab_unknowns_free_value(u, param, error) ? error->status : lab_unknowns_fit(u, steps, chi2, error);
 }
 
-int lab_alone_find(const lab_unknowns *declared, lab_unknowns *with, int *any, lab_error *error)
+/* The value that takes most off chi-square, half of it at least; -1 if there is none.  Returns: LAB_OK, LAB_WORLD */
+static int find_value(const lab_unknowns *declared, lab_unknowns *u, int *best, lab_error *error)
 {
-  static const double enough = 0.5; /* of chi-square, by judgement */
-  lab_unknowns *u = malloc(sizeof *u);
-  int param, best = -1, status = u ? LAB_OK : lab_fail_memory(error, "a value alone");
+  static const double enough = 0.5; /* by judgement */
   double least, chi2;
-  *any = 0;
-  if (status == LAB_OK) {
-    *u = *declared;
-    status = lab_unknowns_fit(u, 1, &least, error);
-  }
+  int param, status;
+  *best = -1;
+  *u = *declared;
+  status = lab_unknowns_fit(u, 1, &least, error);
+  if (status != LAB_OK)
+    return status == LAB_WORLD ? status : LAB_OK;
   least *= enough;
   for (param = 0; param < LAB_PARAM_COUNT && status != LAB_WORLD && !lab_cpu_is_spent(declared->until); param++) {
     if (!is_as_declared(declared, param))
       continue;
     status = fit_with(declared, param, lab_count(LAB_BRIEF_STEPS), u, &chi2, error);
     if (status == LAB_OK && chi2 < least) {
-      best = param;
+      *best = param;
       least = chi2;
     }
   }
-  if (best >= 0 && status != LAB_WORLD)
-    *any = fit_with(declared, best, LAB_ROUNDS_ALL, with, &chi2, error) == LAB_OK;
-  free(u);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+int lab_alone_find(const lab_unknowns *declared, lab_unknowns *with, int *any, lab_error *error)
+{
+  int best, status = find_value(declared, with, &best, error);
+  *any = 0;
+  if (status == LAB_OK && best >= 0) {
+    double chi2;
+    status = fit_with(declared, best, LAB_ROUNDS_ALL, with, &chi2, error);
+    *any = status == LAB_OK;
+  }
   return status == LAB_WORLD ? status : LAB_OK;
 }

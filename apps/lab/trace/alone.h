@@ -12,7 +12,7 @@
  * In:      declared  fitted
  * Out:     with      that model, fitted
  *          any       whether there is one that takes off half of it
- * Returns: LAB_OK, also where the time of `declared` is spent; LAB_DATA, LAB_WORLD. */
+ * Returns: LAB_OK, also where the time of `declared` is spent; LAB_WORLD. */
 int lab_alone_find(const lab_unknowns *declared, lab_unknowns *with, int *any, lab_error *error);
 
 #endif

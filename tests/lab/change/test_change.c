@@ -11,7 +11,7 @@ static const double t_cmd[COMMANDS] = {0.402, 2.503, 4.001, 5.507, 7.204};
 static const double u_cmd[2][COMMANDS] = {{1, 0, -1, 0.5, -0.5}, {0.8, 0, -1, 1, -0.7}};
 static lab_rig rig;
 static lab_changes changes; /* of the comparison that was made last */
-static lab_suspect suspect;
+static lab_suspect suspect[2];
 static int n_suspects;
 
 static void write_log(const second_rig *g, const double *u_of, const char *path)
@@ -40,7 +40,7 @@ static void compare_logs(const char *const path[2])
     virtual_open(&rig, path[i], &log[i], &run[i]);
   succeed(lab_unknowns_open(&rig, run, 1, &u, &error));
   succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
-  succeed(lab_changes_find(&(lab_comparison){&u, 1, run + 1, 1, &suspect, n_suspects, 0.01}, &changes, &error));
+  succeed(lab_changes_find(&(lab_comparison){&u, 1, run + 1, 1, suspect, n_suspects, 0.01}, &changes, &error));
 }
 
 static void compare_files(const char *rig_name, const char *then, const char *now)
@@ -181,14 +181,28 @@ TEST(test_lab_changes_find__suspect__is_taken_only_if_it_explains)
   now.leak_area = 4e-9;
   n_suspects = 1;
   for (i = 0; i < 2; i++) {
-    suspect = (lab_suspect){.score = {.param = pneu_param_find(cases[i].param), .shape = -1, .size = cases[i].size}};
-    suspect.found = cases[i].n_alike ? &found : NULL;
+    suspect[0] = (lab_suspect){.score = {.param = pneu_param_find(cases[i].param), .shape = -1, .size = cases[i].size}};
+    suspect[0].found = cases[i].n_alike ? &found : NULL;
     compare(&now);
     assert_change("chamber_leak", 4e-9);
     if (cases[i].n_alike)
       assert_int_equal(pneu_effect_of(changes.change[0].alike[0]), found.alike[0]);
   }
   n_suspects = 0;
+}
+
+/* What was asked before leaves nothing behind. */
+TEST(test_lab_changes_find__suspect_after_one_with_an_onset__acts_throughout)
+{
+  second_rig now = virtual_rig(8);
+  now.leak_area = 1.5e-8;
+  suspect[0] = (lab_suspect){.score = {.param = PNEU_PARAM_dry_friction, .shape = -1, .size = 100, .onset = 500}};
+  suspect[1] = (lab_suspect){.score = {.param = pneu_param_find("leak_area"), .shape = -1, .size = 1.4e-8}};
+  n_suspects = 2;
+  compare(&now);
+  n_suspects = 0;
+  assert_change("chamber_leak", 1.5e-8);
+  assert_int_equal(changes.change[0].begin.known, 0);
 }
 
 /* Chi-square falls by 33 for it: beyond chance (p = 8e-9), but no more than a model not quite the rig's leaves. */

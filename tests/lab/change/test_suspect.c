@@ -16,12 +16,17 @@ static void give(lab_unknowns *u, lab_search_result *r, int param, double value,
   r->fit.deviation[j] = deviation;
 }
 
+static double t[] = {0, 1, 2, 3};
+
 /* Friction of 100 N and a supply of 400 kPa, on either side, by 1 N and 100 Pa. */
 static void two_sides(double friction, double supply)
 {
   lab_rig_default(&then.rig);
   then.rig.params.dry_friction = 100;
   then.rig.params.supply_pressure = (pneu_real)400e3;
+  rows.value[LAB_CHANNEL_TIME] = t;
+  run = (lab_run){.log = &rows, .n = 4};
+  now.run = &run;
   then.n = now.n = 0;
   then.rig.n_onsets = 0;
   of_then = of_now = (lab_search_result){.verdict = LAB_VERDICT_NONE};
@@ -75,11 +80,7 @@ TEST(test_lab_suspects_find__model_that_explains_nothing__has_none)
 
 TEST(test_lab_suspects_find__value_that_begins__has_the_row_of_its_onset)
 {
-  static double t[] = {0, 1, 2, 3};
   two_sides(100, 400e3);
-  rows.value[LAB_CHANNEL_TIME] = t;
-  run = (lab_run){.log = &rows, .n = 4};
-  now.run = &run;
   now.rig.n_onsets = 1;
   now.rig.onset[0].param = PNEU_PARAM_dry_friction;
   now.rig.onset[0].from = 1.5;
@@ -88,4 +89,21 @@ TEST(test_lab_suspects_find__value_that_begins__has_the_row_of_its_onset)
   assert_int_equal(find(), 1);
   assert_int_equal(suspect[0].score.onset, 2);
   assert_close(suspect[0].score.size, 150, 0, 1e-9);
+}
+
+TEST(test_lab_suspects_find__what_cannot_change_or_is_not_known__is_none)
+{
+  static const char *const names[] = {"ambient_pressure", "leak_area", "start_temperature.start_temperature"};
+  size_t i;
+  two_sides(300, 400e3);
+  of_now.fit.state[0] = LAB_STATE_UNDETERMINED;
+  assert_int_equal(find(), 0);
+  for (i = 0; i < sizeof names / sizeof *names; i++) { /* the weather, an effect that is declared, warm gas at first */
+    const int param = lab_param_index(names[i]);
+    if (param < 0)
+      continue;
+    two_sides(100, 400e3);
+    give(&now, &of_now, param, 1e5, 1e-9);
+    assert_int_equal(find(), 0);
+  }
 }

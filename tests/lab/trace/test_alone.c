@@ -2,6 +2,7 @@
 #include "../../scratch.h"
 #include "../../virtual.h"
 
+#include "../../../apps/lab/fit/deviations.h"
 #include "../../../apps/lab/trace/alone.h"
 
 static lab_rig rig;
@@ -34,6 +35,25 @@ TEST(test_lab_alone_find__supply_far_too_low__is_let_go)
   assert_true(lab_unknown_is_let_go(&with.unknown[j]));
   assert_close(with.unknown[j].value, g.supply, 0, 0.01);
   assert_int_equal(with.n, u.n + 1);
+}
+
+/* A factor of both areas is compared with the sheet as any other value is. */
+TEST(test_lab_alone_find__both_orifices_far_too_small__deviate)
+{
+  static lab_fit_result fit;
+  second_rig g = virtual_rig(3);
+  lab_deviation d;
+  int j;
+  g.fill_area *= 0.3;
+  g.vent_area *= 0.3;
+  find(&g);
+  assert_int_equal(any, 1);
+  j = lab_unknowns_find(&with, LAB_PARAM_ORIFICE_AREA);
+  assert_true(j >= 0);
+  succeed(lab_unknowns_intervals(&with, &fit, &error));
+  assert_true(lab_deviation_of(&rig, &with, &fit, j, &d));
+  assert_close(d.ratio, 0.3, 0, 0.02);
+  assert_true(d.beyond);
 }
 
 TEST(test_lab_alone_find__sound_rig__has_none)
