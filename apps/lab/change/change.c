@@ -92,7 +92,7 @@ static int refit_from(const lab_sides *c, const lab_score *score, double size, d
 }
 
 /* From what the slope says and, where that leads nowhere near what it promises, from the usual size; with the
- * baseline's values, if it is spoilt where it is followed to first order. */
+ * baseline's values, if it is spoilt where it is followed to first order. Beside a leader, from the slope alone. */
 static void refit(const lab_sides *c, const lab_score *score, double level, const extension *leader, extension *x,
                   lab_error *all)
 {

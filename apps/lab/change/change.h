@@ -1,10 +1,11 @@
 /* What has changed in a rig since its baseline was recorded.
  *
  * The model that was completed on the baseline is fitted to the old and the new logs together. What is known to differ
- * from day to day on a sound rig (repeat.h) may differ between them within its spread. Every parameter that can change,
- * and every effect, is scored as a difference that the new logs alone have; the best are refitted and taken up one
- * after the other, until no score passes at `alpha` over all of them (Bonferroni). What the baseline's model cannot
- * describe on the baseline itself counts as noise with memory. SPDX-License-Identifier: MIT */
+ * from day to day on a sound rig (repeat.h) may differ between them within its spread. What a search of the new logs
+ * makes likely (suspect.h) is taken up first if it explains them. Then every parameter that can change, and every
+ * effect, is scored as a difference that the new logs alone have; the best are refitted and taken up one after the
+ * other, until no score passes at `alpha` over all of them (Bonferroni). What the baseline's model cannot describe on
+ * the baseline itself counts as noise with memory. SPDX-License-Identifier: MIT */
 #ifndef LAB_CHANGE_H
 #define LAB_CHANGE_H
 
