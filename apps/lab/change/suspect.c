@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../fit/deviations.h"
 #include "repeat.h"
 
 /* The deviation of an unknown, 0 without one. */
@@ -84,23 +85,14 @@ static int param_of(const lab_explained *then, const lab_explained *now, int j)
              : -1;
 }
 
-/* The value of unknown j; of the areas from an onset on, their factor over that before is told. */
-static double value_of(const lab_unknowns *u, int j)
-{
-  const int before =
-      u->unknown[j].kind == LAB_UNKNOWN_ONSET && u->rig.onset[u->unknown[j].index].param == LAB_PARAM_ORIFICE_AREA
-          ? lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA)
-          : -1;
-  return (before < 0 ? 1 : u->unknown[before].value) * u->unknown[j].value;
-}
-
 /* By how much unknown j of the model of the new logs, which is a parameter's value, is off that of the old ones. */
 static lab_suspect differ(const lab_explained *then, const lab_explained *now, int j, int param)
 {
   const lab_unknown *x = &now->u->unknown[j];
   const int before = lab_unknowns_find(then->u, param), shape = shape_beside(then->u, now->u, param);
   const double was = before >= 0 ? then->u->unknown[before].value : lab_param_value(&then->u->rig, param);
-  const double off = value_of(now->u, j) - was, known = hypot(deviation_of(now, j), deviation_of(then, before));
+  const double off = lab_earlier_factor(now->u, x) * x->value - was,
+               known = hypot(deviation_of(now, j), deviation_of(then, before));
   lab_suspect s = {.found = find_found(now->result, param)};
   s.score.effect = pneu_effect_of(param);
   s.score.param = param;

@@ -95,8 +95,7 @@ static double told_up_to(const lab_rig *rig, const lab_unknowns *u, const lab_fi
   return k > 0 ? p[k - 1] : -1;
 }
 
-/* What a later value is over: the areas before, if these were fitted; else 1. */
-static double earlier_factor(const lab_unknowns *u, const lab_unknown *x)
+double lab_earlier_factor(const lab_unknowns *u, const lab_unknown *x)
 {
   const int j = x->kind == LAB_UNKNOWN_ONSET && u->rig.onset[x->index].param == LAB_PARAM_ORIFICE_AREA
                     ? lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA)
@@ -128,7 +127,7 @@ static double compare(const lab_rig *rig, const lab_unknowns *u, const lab_fit_r
   const int param = d->param = param_of(u, x);
   const double tolerance = (x->tolerance > 0 ? x->tolerance : lab_tolerance(rig, param)) +
                            (x->kind == LAB_UNKNOWN_PARAM ? beside(rig, param) : 0);
-  const double unit = earlier_factor(u, x);
+  const double unit = lab_earlier_factor(u, x);
   d->declared = lab_param_value(rig, param);
   snprintf(d->name, sizeof d->name, "%s", lab_tolerance_name(param));
   snprintf(d->unit, sizeof d->unit, "%s", x->unit);

@@ -65,4 +65,7 @@ int lab_deviations_widen(const lab_unknowns *u, lab_fit_result *fit, lab_error *
  * Returns: LAB_OK, LAB_WORLD; where no fit is found nothing changes. */
 int lab_deviations_forget(lab_unknowns *u, double *chi2, lab_fit_result *fit, lab_error *error);
 
+/* What the value of an unknown is over, which begins within a log: the areas before, if these were fitted; else 1. */
+double lab_earlier_factor(const lab_unknowns *u, const lab_unknown *x);
+
 #endif

@@ -571,9 +571,7 @@ int lab_param_twin(int param)
                                                 : -1;
 }
 
-/* The tolerance of a declared value that is to be held; 0 where it, its scale or its twin is fitted, or the twin is
- * known less well. */
-static double to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
+double lab_unknowns_to_hold(const lab_unknowns *u, const lab_rig *declared, int param)
 {
   const int area = param == PNEU_PARAM_fill_area || param == PNEU_PARAM_vent_area, twin = lab_param_twin(param);
   const int left = param == PNEU_PARAM_damping && lab_rig_fits(declared, param);
@@ -620,7 +618,7 @@ int lab_unknowns_hold(lab_unknowns *u, lab_error *error)
   int param, status = LAB_OK;
   declared.params = u->declared;
   for (param = 0; param < LAB_PARAM_COUNT && status == LAB_OK; param++) {
-    const double tolerance = to_hold(u, &declared, param);
+    const double tolerance = lab_unknowns_to_hold(u, &declared, param);
     if (tolerance > 0)
       status = hold(u, &declared, param, tolerance, error);
   }

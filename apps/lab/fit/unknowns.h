@@ -109,6 +109,10 @@ int lab_param_twin(int param);
 /* Whether parameter `param` is an error of a sensor, and no value of the rig. */
 int lab_param_is_of_sensor(int param);
 
+/* The tolerance of a declared value that is to be held, in its unit; 0 where it, its scale or its twin is fitted, or
+ * the twin is known less well. */
+double lab_unknowns_to_hold(const lab_unknowns *u, const lab_rig *declared, int param);
+
 /* Let a declared value vary that was not held.  Returns: LAB_OK; LAB_DATA if there is no room. */
 int lab_unknowns_free_value(lab_unknowns *u, int param, lab_error *error);
 

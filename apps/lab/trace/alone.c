@@ -1,18 +1,14 @@
 #include "alone.h"
 
 #include "../base/clock.h"
-#include "../rig/tolerance.h"
 #include "decide.h"
 
-/* Whether a value is declared to a tolerance and does not vary yet, by itself or by its scale or twin. */
+/* Whether a value is declared to a tolerance and does not vary yet; the factor of both areas, if neither does. */
 static int is_as_declared(const lab_unknowns *u, int param)
 {
-  const int is_area = param == PNEU_PARAM_fill_area || param == PNEU_PARAM_vent_area, twin = lab_param_twin(param);
-  return lab_param_is_value(param) && lab_tolerance(&u->rig, param) > 0 && lab_unknowns_find(u, param) < 0 &&
-         (twin < 0 || lab_unknowns_find(u, twin) < 0) &&
-         (!is_area || lab_unknowns_find(u, LAB_PARAM_ORIFICE_AREA) < 0) &&
-         (param != LAB_PARAM_ORIFICE_AREA ||
-          (lab_unknowns_find(u, PNEU_PARAM_fill_area) < 0 && lab_unknowns_find(u, PNEU_PARAM_vent_area) < 0));
+  if (param == LAB_PARAM_ORIFICE_AREA)
+    return is_as_declared(u, PNEU_PARAM_fill_area) && is_as_declared(u, PNEU_PARAM_vent_area);
+  return lab_param_is_value(param) && lab_unknowns_to_hold(u, &u->rig, param) > 0;
 }
 
 /* The declared model with one value free.
