@@ -11,8 +11,6 @@
 static const double command_max = 1.05;
 static const double set_point_max = 2; /* a set position may lie beyond the stops */
 
-#define LEAVE_OUT "; to leave such rows out, write into the rig file: log = { damaged = \"drop\"; };"
-
 struct reader {
   lab_csv csv;
   lab_log_format *format;
@@ -80,13 +78,13 @@ static const char *number_advice(const struct reader *r, const char *text)
 {
   const int comma = strchr(text, ',') != NULL, point = strchr(text, '.') != NULL, decimal = r->format->decimal;
   if (!strpbrk(text, "0123456789") || r->format->thousands)
-    return LEAVE_OUT;
+    return LAB_LEAVE_OUT;
   if (comma && point)
     return decimal == ',' ? "; if points part thousands, write into the rig file: log = { thousands = \".\"; };"
                           : "; if commas part thousands, write into the rig file: log = { thousands = \",\"; };";
   if (comma && decimal == '.')
     return "; if commas are decimal ones, write into the rig file: log = { decimal = \",\"; };";
-  return LEAVE_OUT;
+  return LAB_LEAVE_OUT;
 }
 
 static int read_field(struct reader *r, int i)
@@ -146,7 +144,7 @@ static int read_row(struct reader *r)
     if (read_field(r, i))
       return r->error->status;
   if (r->csv.n != r->header.n)
-    return lab_fail(r->error, LAB_DATA, "expected %d fields, found %d" LEAVE_OUT, r->header.n, r->csv.n);
+    return lab_fail(r->error, LAB_DATA, "expected %d fields, found %d" LAB_LEAVE_OUT, r->header.n, r->csv.n);
   if (r->header.has_stamps)
     put_stamp(r);
   return LAB_OK;
@@ -186,7 +184,7 @@ static int check_command(struct reader *r)
   now = r->log->value[command][r->log->n];
   if (isnan(now))
     return lab_fail(r->error, LAB_DATA, "channel %s: expected a number, found a gap; %s holds until the next row%s",
-                    lab_channels[command].key, lab_channels[command].key, LEAVE_OUT);
+                    lab_channels[command].key, lab_channels[command].key, LAB_LEAVE_OUT);
   if (command == LAB_CHANNEL_SP && fabs(now) > set_point_max)
     return lab_fail(r->error, LAB_DATA, "channel sp: expected a share of the stroke, found %g; is its unit %%?", now);
   if (command == LAB_CHANNEL_U && !r->format->command_is_pressure && fabs(now) > command_max)
@@ -196,7 +194,8 @@ static int check_command(struct reader *r)
   return LAB_OK;
 }
 
-/* Time must grow within a run; a run begins at the first row, or where the format says. */
+/* Time must grow within a run, which begins at the first row, or where the format says. Rows of one time may be those
+ * of a clock that goes in steps, unless the format asks for damaged rows to be left out. */
 static int check_time(struct reader *r, double t)
 {
   if (isnan(t))
@@ -205,9 +204,9 @@ static int check_time(struct reader *r, double t)
     r->log->run[r->log->n_runs++] = r->log->n;
     return LAB_OK;
   }
-  if (t <= r->last_t && r->format->n_quantities == 0)
-    return lab_fail(r->error, LAB_DATA, "channel t: expected more than the %.9g s of the row before, found %.9g s%s%s",
-                    r->last_t, t, t < r->last_t ? "; if a run begins here: log.new_run = \"t drops\"" : "", LEAVE_OUT);
+  if ((t < r->last_t || (t <= r->last_t && r->format->damaged == LAB_DAMAGED_DROP)) && r->format->n_quantities == 0)
+    return lab_fail(r->error, LAB_DATA, LAB_EXPECTED_LATER, r->last_t, t,
+                    t < r->last_t ? "; if a run begins here: log.new_run = \"t drops\"" : "", LAB_LEAVE_OUT);
   return LAB_OK;
 }
 
@@ -280,6 +279,8 @@ static int finish(struct reader *r)
   if (r->format->n_quantities && lab_log_join(log, r->error))
     return r->error->status;
   log->run[log->n_runs] = log->n;
+  if (lab_log_spread_repeats(log, r->error))
+    return r->error->status;
   clip_command(log, r->format);
   return lab_log_shape(log, r->format, r->error);
 }

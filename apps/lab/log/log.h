@@ -29,6 +29,7 @@ typedef struct lab_log {
   size_t *run;                    /* first row of each run, then n: n_runs + 1 entries; t grows strictly within a run */
   size_t dropped;                 /* damaged rows left out, as the format asks */
   size_t outside;                 /* rows left out by the window */
+  size_t repeated;                /* rows of one time with the row before, which were spread */
   double clock_step;              /* [s] to which the time was rounded before it was mended; 0: it was not */
   double stamp_step;              /* [s] to which it still is, coarsely beside the distance of rows; 0: it is not */
   lab_hum hum[LAB_CHANNEL_COUNT]; /* that was taken off the values */

@@ -114,6 +114,17 @@ int lab_map_is_named(const lab_heading *heading, int n);
 int lab_long_check(lab_csv *csv, const lab_log_format *format, const lab_guess *guess, const lab_heading *heading,
                    lab_error *error);
 
+/* ---- Rows of one time (logrepeat.c) ---- */
+
+#define LAB_LEAVE_OUT "; to leave such rows out, write into the rig file: log = { damaged = \"drop\"; };"
+#define LAB_EXPECTED_LATER "channel t: expected more than the %.9g s of the row before, found %.9g s%s%s"
+
+/* A clock that goes in steps gives several rows one time: they are spread evenly over the step to the next. More rows
+ * than come in that step are no such thing.
+ * In/out:  log  its times, and `repeated`
+ * Returns: LAB_OK; LAB_DATA with the line. */
+int lab_log_spread_repeats(lab_log *log, lab_error *error);
+
 /* ---- The last steps: rows in the order and the number that the format asks for (logshape.c) ---- */
 
 /* Join the rows of a file in long format, of which each holds one value of one channel: sorted by time, those of one

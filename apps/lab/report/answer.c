@@ -289,13 +289,32 @@ static double trusted(const lab_search_result *r)
                                                    : 0;
 }
 
+static int is_told_as_value(const lab_deviations *all, int effect)
+{
+  int i, any = 0;
+  for (i = 0; i < all->n; i++)
+    any |= pneu_effect_of(all->of[i].param) == effect;
+  return any;
+}
+
+/* What is told as a value that is off is no effect that is too small to add. */
+static void list_once(const lab_deviations *all, lab_search_result *r)
+{
+  int i, n = 0;
+  for (i = 0; i < r->n_listed; i++)
+    if (!is_told_as_value(all, r->listed[i]))
+      r->listed[n++] = r->listed[i];
+  r->n_listed = n;
+}
+
 /* What the fit says of the declared values, which are not unknowns from here on. */
 static int conclude(lab_answer *a, lab_error *error)
 {
-  const lab_search_result *r = &a->now.result;
+  lab_search_result *r = &a->now.result;
   lab_deviations *all = &a->report.deviations;
   if (lab_deviations_find(&a->rig, &a->now.completed, &r->fit, trusted(r), all, error))
     return error->status;
+  list_once(all, r);
   if (r->verdict == LAB_VERDICT_UNDECIDED && all->condition == LAB_CONDITION_AS_DECLARED)
     all->condition = LAB_CONDITION_CANNOT_TELL;
   if (lab_report_wanders(r))

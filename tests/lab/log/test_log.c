@@ -624,7 +624,6 @@ CASE(test_lab_log_read__bad_file__says_what_is_wrong)
       {"t [s],u [1],p [kPa]\n0,0,1\n1,0,high\n", "log.csv:3: column 3 \"p [kPa]\"",
        "expected a number, found \"high\""},
       {"t [s],p [kPa]\n0,inf\n", "log.csv:2: column 2", "found \"inf\""},
-      {"t [s],u [1]\n0,0\n1,0\n1,0\n", "log.csv:4:", "channel t"},
       {"t [s],u [1]\n0,0\n1,0\n0.5,0\n", "log.csv:4:", "log.new_run"},
       {"t [s],u [1]\n0,0\n,0\n", "log.csv:3:", "channel t: expected a number, found a gap"},
       {"t [s],u [1]\n0,0\n1,nan\n", "log.csv:3:", "channel u: expected a number, found a gap"},
@@ -699,6 +698,43 @@ CASE(test_lab_log_read__repeated_time_with_runs__is_still_refused)
 {
   format.new_run = LAB_RUN_T_DROPS;
   assert_refused("t [s],u [1]\n0,0\n0,0\n", "log.csv:3:", "channel t");
+}
+
+/* A clock of 0.1 s; the last rows by the step before them. */
+CASE(test_lab_log_read__rows_of_one_time__are_spread_over_the_step)
+{
+  static const double even[] = {0, 0.1, 0.15, 0.2, 0.3, 0.35};
+  read_log("t [s],u [1]\n0,0\n0.1,0\n0.1,0\n0.2,0\n0.3,0\n0.3,0\n");
+  check_column(LAB_CHANNEL_TIME, 1e-12, even, 6);
+  assert_int_equal(rows.repeated, 2);
+}
+
+/* Ten rows a second, times to the second. */
+CASE(test_lab_log_read__times_to_the_second__are_spread_over_it)
+{
+  char text[2000] = "t [s],u [1]\n";
+  size_t i;
+  for (i = 0; i < 50; i++)
+    sprintf(text + strlen(text), "%zu,0\n", i / 10);
+  read_log(text);
+  for (i = 0; i < 50; i++)
+    assert_close(rows.value[LAB_CHANNEL_TIME][i], 0.1 * (double)i, 1e-12, 0);
+  assert_int_equal(rows.repeated, 45);
+}
+
+CASE(test_lab_log_read__clock_that_stands_for_longer_than_a_step__is_refused)
+{
+  assert_refused("t [s],u [1]\n0,0\n1,0\n1,0\n1,0\n1,0\n1,0\n2,0\n3,0\n4,0\n",
+                 "log.csv:4:", "channel t: expected more than");
+}
+
+CASE(test_lab_log_read__repeated_time_where_damaged_rows_go__is_left_out)
+{
+  format.damaged = LAB_DAMAGED_DROP;
+  read_log("t [s],u [1]\n0,0\n1,0\n1,0\n2,0\n");
+  assert_int_equal(rows.n, 3);
+  assert_int_equal(rows.dropped, 1);
+  assert_int_equal(rows.repeated, 0);
 }
 
 CASE(test_lab_log_read__long_format_faults__are_refused)
