@@ -297,11 +297,11 @@ static int is_in_part(const lab_unknown *x)
 static int leave_out(const lab_sides *c, int which, lab_unknowns *u, double *chi2, lab_error *error)
 {
   const int param = c->change[which].param, j = lab_sides_find(&c->u, param);
+  const lab_repeat *repeat = lab_repeat_find(param);
   int i, k;
   *u = c->u;
-  for (i = 0; i < lab_repeat_count; i++)
-    if (lab_param_index(lab_repeats[i].name) == param && !is_in_part(&u->unknown[j]))
-      u->unknown[j].spread = sqrt(2) * lab_repeat_spread(&lab_repeats[i], &u->rig, c->row);
+  if (repeat && !is_in_part(&u->unknown[j]))
+    u->unknown[j].spread = sqrt(2) * lab_repeat_spread(repeat, &u->rig, c->row);
   u->unknown[j].value = 0;
   for (i = k = 0; i < u->n; i++)
     if (i != j || u->unknown[i].spread > 0)
@@ -369,13 +369,16 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
 }
 
 /* Whether a change is more than what the model leaves may feign: of the many effects one or the other bends to that, so
- * that a new one has to be as plain as one that is added (PLAIN_BIC). */
+ * that a new one has to be as plain as one that is added (PLAIN_BIC), and worth telling, unless it is known how far it
+ * differs by itself. */
 static int is_plain(const lab_sides *c, const lab_change *change)
 {
+  static const double worth = 0.01; /* of what is left of the logs, by judgement: where the model errs by less */
   const int j = lab_unknowns_find(&c->u, change->param);
   const int is_new = change->then == (double)lab_param_info(change->param).neutral ||
                      (j >= 0 && lab_unknown_is_held(&c->u.unknown[j]));
-  return pneu_effect_of(change->param) < 0 || !is_new || change->statistic > lab_constant(LAB_PLAIN_BIC);
+  return pneu_effect_of(change->param) < 0 || !is_new || lab_repeat_find(change->param) ||
+         change->statistic > fmax(lab_constant(LAB_PLAIN_BIC), worth * c->chi2);
 }
 
 /* Whether the logs tell the value of a change from none. */
@@ -396,7 +399,8 @@ static int describe(lab_sides *c, lab_changes *changes, int *unknown, lab_error 
     lab_change *change = &changes->change[changes->n];
     *change = c->change[i];
     const int followed = c->followed > 0 && i + 1 == c->n;
-    status = followed ? LAB_OK : leave_out(c, i, without, &chi2, error);
+    chi2 = c->without_first;
+    status = followed || (c->n == 1 && chi2 > 0) ? LAB_OK : leave_out(c, i, without, &chi2, error);
     if (status != LAB_OK)
       break;
     change->statistic = followed ? c->followed : fmax(chi2 - c->chi2, 0);
@@ -445,10 +449,11 @@ static int conclude(lab_sides *c, int unknown, lab_changes *changes, lab_error *
         changes->why, sizeof changes->why,
         "a model of both leaves %.2f times the noise of the baseline, and no change in the list explains the new log",
         changes->then);
-  } else if (!changes->n && unknown) {
+  } else if (!changes->n && (unknown || lab_rest_is_strained(&left))) {
     changes->condition = LAB_SINCE_CANNOT_TELL;
     snprintf(changes->why, sizeof changes->why,
-             "something has, but the logs do not tell the value of what would explain it");
+             unknown ? "something has, but the logs do not tell the value of what would explain it"
+                     : "something has, as values differ by more than from day to day, and the logs do not tell which");
   }
   return LAB_OK;
 }
@@ -493,7 +498,8 @@ static int take_all(lab_sides *c, double alpha, extension *course, lab_changes *
 static int may_have_changed(const lab_sides *c, lab_error *error)
 {
   lab_rest left;
-  return c->decided || lab_sides_rest(&c->u, c->first, &left, error) || lab_rest_is_more_than_noise(&left);
+  return c->decided || lab_sides_rest(&c->u, c->first, &left, error) || lab_rest_is_more_than_noise(&left) ||
+         lab_rest_is_strained(&left);
 }
 
 /* The level of one test where there are as many as there may be. */
@@ -502,13 +508,45 @@ static double most_tests(double alpha)
   return alpha / (LAB_SCORES_MAX * LAB_ONSET_PLACES);
 }
 
-/* Take up the first suspect that explains the new logs.  Out: taken */
-static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, lab_error *error)
+/* Whether what was taken up first explains more than what may differ from day to day does without it: else the model is
+ * the one without it, fitted. Where the time ends it stays.
+ * In/out:  c      with one change
+ * Out:     taken  whether it stays */
+static int compare_with_none(lab_sides *c, double level, int *taken, lab_error *error)
+{
+  lab_unknowns *without = malloc(sizeof *without);
+  double chi2;
+  int status = without ? leave_out(c, 0, without, &chi2, error) : lab_fail_memory(error, "changes");
+  *taken = status != LAB_OK || lab_chi2_tail(fmax(chi2 - c->chi2, 0), c->shape[0] >= 0 ? 2 : 1) < level;
+  if (status == LAB_OK && *taken)
+    c->without_first = chi2;
+  else if (status == LAB_OK) {
+    c->u = *without;
+    c->chi2 = chi2;
+    c->n = 0;
+    memset(&c->change[0], 0, sizeof c->change[0]);
+  }
+  free(without);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
+/* Name the other effects that explain as much as a suspect. */
+static void list_alike(const lab_suspect *s, lab_change *change)
+{
+  int k, count;
+  for (k = 0; s->found && k < s->found->n_alike && k < LAB_CHANGE_LEADERS; k++)
+    change->alike[change->n_alike++] = pneu_effect_params(s->found->alike[k], &count);
+}
+
+/* Take up the first suspect that explains the new logs.
+ * Out:  taken
+ *       fitted  whether the model without any is fitted */
+static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, int *fitted, lab_error *error)
 {
   const double level = most_tests(of->alpha);
   extension *x = calloc(1, sizeof *x);
-  int i, k, count;
-  *taken = 0;
+  int i;
+  *taken = *fitted = 0;
   if (!x)
     return lab_fail_memory(error, "changes");
   error->status = LAB_OK;
@@ -516,12 +554,12 @@ static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, lab_
     const lab_suspect *s = &of->suspect[i];
     x->u = c->u;
     refit_from(c, &s->score, s->score.size, level, NULL, x, error);
-    *taken = explains(c, x) && is_change(c, x, level, error);
-    if (!*taken)
+    if (!explains(c, x) || !is_change(c, x, level, error))
       continue;
     take(c, x, NULL, 0);
-    for (k = 0; s->found && k < s->found->n_alike && k < LAB_CHANGE_LEADERS; k++)
-      c->change[c->n - 1].alike[c->change[c->n - 1].n_alike++] = pneu_effect_params(s->found->alike[k], &count);
+    list_alike(s, &c->change[0]);
+    if (compare_with_none(c, level, taken, error) == LAB_OK)
+      *fitted = !*taken;
   }
   free(x);
   return error->status;
@@ -530,10 +568,11 @@ static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, lab_
 static int compare(lab_sides *c, const lab_comparison *of, lab_changes *changes, lab_error *error)
 {
   extension *course = malloc(sizeof *course);
-  int unknown = 0, taken = 0, status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
+  int unknown = 0, taken = 0, fitted = 0,
+      status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
   if (status == LAB_OK && !course->fitted)
-    status = take_suspect(c, of, &taken, error);
-  if (status == LAB_OK && !taken)
+    status = take_suspect(c, of, &taken, &fitted, error);
+  if (status == LAB_OK && !taken && !fitted)
     status = lab_sides_approach(&c->u, &c->chi2, error);
   if ((status == LAB_OK && (taken || course->fitted || may_have_changed(c, error))) ||
       (status == LAB_NUMERIC && course->fitted))

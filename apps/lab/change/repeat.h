@@ -16,6 +16,9 @@ typedef struct lab_repeat {
 extern const lab_repeat lab_repeats[];
 extern const int lab_repeat_count;
 
+/* What is known of a parameter.  Returns: NULL: nothing */
+const lab_repeat *lab_repeat_find(int param);
+
 /* The standard deviation on a rig, in the parameter's unit.  In: row  [s] from row to row of the logs */
 double lab_repeat_spread(const lab_repeat *repeat, const lab_rig *rig, double row);
 

@@ -316,12 +316,17 @@ int lab_rest_spoils_baseline(const lab_rest *left)
   return left->then > sqrt(lab_constant(LAB_NOISE_DOUBTFUL));
 }
 
+int lab_rest_is_strained(const lab_rest *left)
+{
+  static const double most = 4; /* deviations, by judgement */
+  return left->strain > most;
+}
+
 int lab_rest_is_as_before(const lab_rest *left)
 {
-  static const double most = 4; /* deviations from what a value may be, by judgement */
   const double deviations = lab_constant(LAB_NOISE_DEVIATIONS) * sqrt(2 / (double)left->n),
                before = fmax(left->then, 1);
-  return left->now * left->now <= before * before * (1 + deviations) && left->strain <= most;
+  return left->now * left->now <= before * before * (1 + deviations) && !lab_rest_is_strained(left);
 }
 
 int lab_rest_is_more_than_noise(const lab_rest *left)

@@ -21,6 +21,7 @@ typedef struct lab_sides {
   int n;
   lab_change change[LAB_CHANGES_MAX]; /* what was taken up */
   int shape[LAB_CHANGES_MAX];
+  double without_first; /* chi-square without what was taken up first; 0: not known */
   double
       followed; /* by how much chi-square fell when the supply was followed, which is the last change; 0: it was not */
   int n_followed; /* what that fitted */
@@ -65,6 +66,9 @@ int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *
 /* The same with both sides simulated.  In: u  as c->u  run  c->run or c->white */
 int lab_sides_rest_of_all(const lab_sides *c, const lab_unknowns *u, const lab_run *run, lab_rest *left,
                           lab_error *error);
+
+/* Whether a value is farther from what is known of it beforehand than that may be: it stands in for a change. */
+int lab_rest_is_strained(const lab_rest *left);
 
 /* Whether the new logs leave as little as the baseline, or as noise does, with values as they may be. */
 int lab_rest_is_as_before(const lab_rest *left);

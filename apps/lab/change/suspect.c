@@ -13,20 +13,11 @@ static double deviation_of(const lab_explained *e, int j)
   return j < 0 ? 0 : e->result->fit.deviation[j];
 }
 
-static const lab_repeat *find_repeat(int param)
-{
-  int i;
-  for (i = 0; i < lab_repeat_count; i++)
-    if (lab_param_index(lab_repeats[i].name) == param)
-      return &lab_repeats[i];
-  return NULL;
-}
-
 /* Whether it is among what a comparison tests: effects, what changes from day to day but the weather, what is fitted;
  * not what each log has for itself, and how warm its gas is at first. */
 static int can_change(const lab_unknowns *then, int param)
 {
-  const lab_repeat *repeat = find_repeat(param);
+  const lab_repeat *repeat = lab_repeat_find(param);
   const int j = lab_unknowns_find(then, param), effect = pneu_effect_of(param);
   if ((j >= 0 && then->unknown[j].run != LAB_ALL_RUNS) || effect == pneu_effect_find("start_temperature"))
     return 0;
@@ -36,7 +27,7 @@ static int can_change(const lab_unknowns *then, int param)
 /* How far a sound rig may have it elsewhere on another day. */
 static double day_to_day(const lab_unknowns *now, int param)
 {
-  const lab_repeat *repeat = find_repeat(param);
+  const lab_repeat *repeat = lab_repeat_find(param);
   const double *t = now->run->log->value[LAB_CHANNEL_TIME] + now->run->first;
   return repeat ? lab_repeat_spread(repeat, &now->rig, (t[now->run->n - 1] - t[0]) / (double)now->run->n) : 0;
 }

@@ -15,6 +15,7 @@
 #include "../fit/drift.h"
 #include "../fit/weights.h"
 #include "../metrics/recording.h"
+#include "../rig/tolerance.h"
 #include "../trace/alone.h"
 #include "../trace/apart.h"
 #include "figures.h"
@@ -343,6 +344,22 @@ static void place_on_rows(lab_logs *logs, int on_rows)
     logs->run[e].on_rows = on_rows;
 }
 
+/* Whether the rows of all runs are farther apart than the lags and the clocks of the sensors are known: else these and
+ * the instants of commands stand for each other. */
+static int rows_are_apart(const lab_logs *logs)
+{
+  static const char *const instrument[] = {"pressure_lag.pressure_time", "position_lag.position_time",
+                                           "channel_skew.channel_skew"};
+  int e, i, apart = 1;
+  for (e = 0; e < logs->n; e++) {
+    const lab_run *x = &logs->run[e];
+    const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first;
+    for (i = 0; i < 3; i++)
+      apart &= t[x->n - 1] - t[0] > (double)x->n * lab_tolerance(x->rig, lab_param_index(instrument[i]));
+  }
+  return apart;
+}
+
 /* A controller makes its commands at the rows that it logs. Where a fit asks for that, the declared model is fitted so,
  * and stays so if that is plainly the better fit beside what it leaves.
  * In/out:  declared  fitted
@@ -353,7 +370,7 @@ static int fit_on_rows(lab_logs *logs, lab_unknowns *declared, double chi2, lab_
   lab_unknowns *u;
   double on_rows;
   int status;
-  if (!lab_unknowns_are_at_rows(declared))
+  if (!rows_are_apart(logs) || !lab_unknowns_are_at_rows(declared))
     return LAB_OK;
   u = malloc(sizeof *u);
   if (!u)

@@ -162,7 +162,7 @@ static int fit_within(const lab_unknowns *u, const lab_search_options *options, 
   *begins = within->quality.fitted = 0;
   status = begun->held ? take_held(begun, within, error) : lab_candidate_hold(within, error);
   if (status == LAB_OK && lab_is_plainly_off(&left) && lab_is_plainly_off(&within->quality) &&
-      lab_rounds_may_begin(&within->u, options)) {
+      !(begun->result.sound_until > 0) && lab_rounds_may_begin(&within->u, options)) {
     status = lab_early_fit(within, 0, options->alpha, &begun->best, &begun->begins, sound, error);
     begun->best.u.until = u->until;
     *begins = status == LAB_OK && begun->best.quality.fitted;
