@@ -1,5 +1,6 @@
 #include "change.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -165,10 +166,11 @@ static int follow(lab_sides *c, extension *x, lab_error *error)
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* The order in which changes that are as good are named: orifices, parameters, effects. */
+/* The order in which changes that are as good are named: orifices, parameters, effects; the vent by that of its effect.
+ */
 static int order_of(int param)
 {
-  return param == LAB_PARAM_ORIFICE_AREA ? -1 : param;
+  return param == LAB_PARAM_ORIFICE_AREA ? -1 : param == PNEU_PARAM_vent_area ? INT_MAX : param;
 }
 
 /* Schwarz's criterion. */
@@ -369,16 +371,16 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
 }
 
 /* Whether a change is more than what the model leaves may feign: of the many effects one or the other bends to that, so
- * that a new one has to be as plain as one that is added (PLAIN_BIC), and worth telling, unless it is known how far it
- * differs by itself. */
-static int is_plain(const lab_sides *c, const lab_change *change)
+ * that a new one has to be as plain as one that is added (PLAIN_BIC) and to take as much off what is left of the new
+ * logs (MIN_GAIN), unless it is known how far it differs by itself. */
+static int is_plain(const lab_sides *c, const lab_rest *left, const lab_change *change)
 {
-  static const double worth = 0.01; /* of what is left of the logs, by judgement: where the model errs by less */
+  const double worth = 2 * lab_constant(LAB_MIN_GAIN) * left->now * left->now * (double)left->n;
   const int j = lab_unknowns_find(&c->u, change->param);
   const int is_new = change->then == (double)lab_param_info(change->param).neutral ||
                      (j >= 0 && lab_unknown_is_held(&c->u.unknown[j]));
   return pneu_effect_of(change->param) < 0 || !is_new || lab_repeat_find(change->param) ||
-         change->statistic > fmax(lab_constant(LAB_PLAIN_BIC), worth * c->chi2);
+         change->statistic > fmax(lab_constant(LAB_PLAIN_BIC), worth);
 }
 
 /* Whether the logs tell the value of a change from none. */
@@ -388,8 +390,9 @@ static int is_known(const lab_sides *c, const lab_fit_result *fit, const lab_cha
   return fabs(c->u.unknown[d].value) > lab_student_quantile(0.975, (double)INFINITY) * sqrt(fit->covariance[d][d]);
 }
 
-/* Out:     unknown  whether something has changed of which the logs do not tell the value */
-static int describe(lab_sides *c, lab_changes *changes, int *unknown, lab_error *error)
+/* In:      left     of both sides
+ * Out:     unknown  whether something has changed of which the logs do not tell the value */
+static int describe(lab_sides *c, const lab_rest *left, lab_changes *changes, int *unknown, lab_error *error)
 {
   lab_unknowns *without = malloc(sizeof *without);
   lab_fit_result *fit = malloc(sizeof *fit);
@@ -410,7 +413,7 @@ static int describe(lab_sides *c, lab_changes *changes, int *unknown, lab_error 
       status = error->status;
       break;
     }
-    if (!(change->p_value < changes->level) || !is_plain(c, change))
+    if (!(change->p_value < changes->level) || !is_plain(c, left, change))
       continue;
     if (followed || is_known(c, fit, change))
       changes->n++;
@@ -423,19 +426,16 @@ static int describe(lab_sides *c, lab_changes *changes, int *unknown, lab_error 
   return status;
 }
 
-static int conclude(lab_sides *c, int unknown, lab_changes *changes, lab_error *error)
+static void conclude(const lab_rest *left, int unknown, lab_changes *changes)
 {
   static const double stand_ins = 2; /* times the noise: changes that leave so much stand in for others, by judgement */
-  lab_rest left;
-  if (lab_sides_rest_of_all(c, &c->u, c->run, &left, error))
-    return error->status;
-  changes->then = left.then;
-  changes->now = left.now;
+  changes->then = left->then;
+  changes->now = left->now;
   changes->condition = changes->n      ? LAB_SINCE_CHANGED
                        : *changes->why ? LAB_SINCE_CANNOT_TELL /* the time is spent */
                                        : LAB_SINCE_UNCHANGED;
-  if (lab_rest_is_doubtful(&left)) {
-    if (left.now > stand_ins * fmax(left.then, 1))
+  if (lab_rest_is_doubtful(left)) {
+    if (left->now > stand_ins * fmax(left->then, 1))
       changes->n = 0;
     if (!changes->n)
       changes->condition = LAB_SINCE_CANNOT_TELL;
@@ -443,19 +443,18 @@ static int conclude(lab_sides *c, int unknown, lab_changes *changes, lab_error *
              "what the model of the baseline leaves of the new log, %.2f times the noise, is more than it leaves of "
              "the baseline, %.2f times, and no change in the list explains it",
              changes->now, changes->then);
-  } else if (!changes->n && lab_rest_spoils_baseline(&left)) {
+  } else if (!changes->n && lab_rest_spoils_baseline(left)) {
     changes->condition = LAB_SINCE_CANNOT_TELL;
     snprintf(
         changes->why, sizeof changes->why,
         "a model of both leaves %.2f times the noise of the baseline, and no change in the list explains the new log",
         changes->then);
-  } else if (!changes->n && (unknown || lab_rest_is_strained(&left))) {
+  } else if (!changes->n && (unknown || lab_rest_is_strained(left))) {
     changes->condition = LAB_SINCE_CANNOT_TELL;
     snprintf(changes->why, sizeof changes->why,
              unknown ? "something has, but the logs do not tell the value of what would explain it"
                      : "something has, as values differ by more than from day to day, and the logs do not tell which");
   }
-  return LAB_OK;
 }
 
 /* Whether a comparison failed for want of time. */
@@ -568,6 +567,7 @@ static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, int 
 static int compare(lab_sides *c, const lab_comparison *of, lab_changes *changes, lab_error *error)
 {
   extension *course = malloc(sizeof *course);
+  lab_rest left;
   int unknown = 0, taken = 0, fitted = 0,
       status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
   if (status == LAB_OK && !course->fitted)
@@ -581,7 +581,10 @@ static int compare(lab_sides *c, const lab_comparison *of, lab_changes *changes,
   if (status != LAB_OK)
     return status;
   c->u.until = 0; /* what was found is sized in any case */
-  return describe(c, changes, &unknown, error) ? error->status : conclude(c, unknown, changes, error);
+  if (lab_sides_rest_of_all(c, &c->u, c->run, &left, error) || describe(c, &left, changes, &unknown, error))
+    return error->status;
+  conclude(&left, unknown, changes);
+  return LAB_OK;
 }
 
 int lab_changes_find(const lab_comparison *of, lab_changes *changes, lab_error *error)

@@ -3,9 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Chosen by judgement; not calibrated: regulators and weather, zeros and gains of ordinary transmitters, what
- * friction does from day to day, and the noise that a positioner sees at the edge of its dead band. Who knows better
- * gives the measured supply as a channel. */
+/* Chosen by judgement; not calibrated: regulators and weather, zeros and gains of ordinary transmitters, and what
+ * friction does from day to day. Who knows better gives the measured supply as a channel. */
 const lab_repeat lab_repeats[] = {
     {"supply_pressure", 0.02, NULL, 0, 1},
     {"ambient_pressure", 0, NULL, 1500, 0},
@@ -25,8 +24,7 @@ const lab_repeat lab_repeats[] = {
     {"spring_rate", 0.005, NULL, 0, 1},
     {"spring_preload", 0.005, NULL, 0, 1},
     {"positioner.gain", 0, NULL, 0, 1},
-    {"positioner.dead_band", 0, NULL, 0.0005, 1},
-    {"positioner_dead_band.dead_band_excess", 0, NULL, 0.0005, 1},
+    {"positioner.dead_band", 0, NULL, 0, 1},
 };
 const int lab_repeat_count = sizeof lab_repeats / sizeof *lab_repeats;
 

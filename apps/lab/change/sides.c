@@ -274,9 +274,19 @@ static size_t rows_of(const lab_unknowns *u, int first)
   return n;
 }
 
+/* Deviations by which what differs from day to day does so, the largest. */
+static double strain_of(const lab_unknowns *u)
+{
+  double strain = 0;
+  int j;
+  for (j = 0; j < u->n; j++)
+    if (u->unknown[j].kind == LAB_UNKNOWN_CHANGE && u->unknown[j].spread > 0)
+      strain = fmax(strain, fabs(u->unknown[j].value) / u->unknown[j].spread);
+  return strain;
+}
+
 int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *error)
 {
-  size_t i;
   double *r = malloc((u->m + 1) * sizeof *r);
   const int status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK) {
@@ -284,9 +294,7 @@ int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *
     left->now = left_of(u, r, first, u->n_runs);
     left->n = rows_of(u, first);
     left->chi2 = lab_dot(r, r, u->m);
-    left->strain = 0;
-    for (i = lab_unknowns_before_priors(u); i < u->m; i++)
-      left->strain = fmax(left->strain, fabs(r[i]));
+    left->strain = strain_of(u);
   }
   free(r);
   return status;

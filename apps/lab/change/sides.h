@@ -56,7 +56,7 @@ typedef struct lab_rest {
   double then, now;
   size_t n; /* values of the new logs */
   double chi2;
-  double strain; /* [1] deviations by which what is known beforehand is off, the largest */
+  double strain; /* [1] deviations by which what differs from day to day does so, the largest */
 } lab_rest;
 
 /* In:      first  run of the new logs
@@ -67,7 +67,7 @@ int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *
 int lab_sides_rest_of_all(const lab_sides *c, const lab_unknowns *u, const lab_run *run, lab_rest *left,
                           lab_error *error);
 
-/* Whether a value is farther from what is known of it beforehand than that may be: it stands in for a change. */
+/* Whether a value differs by so much more than from day to day that it stands in for a change. */
 int lab_rest_is_strained(const lab_rest *left);
 
 /* Whether the new logs leave as little as the baseline, or as noise does, with values as they may be. */

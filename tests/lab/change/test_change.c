@@ -13,6 +13,7 @@ static lab_rig rig;
 static lab_changes changes; /* of the comparison that was made last */
 static lab_suspect suspect[2];
 static int n_suspects;
+static int decided = 1; /* whether the model explains the baseline */
 
 static void write_log(const second_rig *g, const double *u_of, const char *path)
 {
@@ -40,7 +41,7 @@ static void compare_logs(const char *const path[2])
     virtual_open(&rig, path[i], &log[i], &run[i]);
   succeed(lab_unknowns_open(&rig, run, 1, &u, &error));
   succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
-  succeed(lab_changes_find(&(lab_comparison){&u, 1, run + 1, 1, suspect, n_suspects, 0.01}, &changes, &error));
+  succeed(lab_changes_find(&(lab_comparison){&u, decided, run + 1, 1, suspect, n_suspects, 0.01}, &changes, &error));
 }
 
 static void compare_files(const char *rig_name, const char *then, const char *now)
@@ -154,6 +155,26 @@ TEST(test_lab_changes_find__zero_of_each_log__is_no_change)
   compare_declared(&then, &now);
   assert_int_equal(changes.condition, LAB_SINCE_UNCHANGED);
   assert_int_equal(changes.n, 0);
+}
+
+/* A zero that has moved by 2.5 % of the stroke is none of another day. */
+TEST(test_lab_changes_find__zero_beyond_another_day__is_the_change)
+{
+  second_rig now = virtual_rig(8);
+  now.position_bias = 0.025 * now.stroke;
+  compare(&now);
+  assert_change("position_bias", now.position_bias);
+}
+
+/* Values that may differ from day to day can take up all that a change leaves, beyond what a day does. */
+TEST(test_lab_changes_find__friction_beyond_another_day__is_no_matter_of_an_unexplained_baseline)
+{
+  second_rig now = virtual_rig(8);
+  now.dry_friction *= 1.5;
+  decided = 0;
+  compare(&now);
+  decided = 1;
+  assert_change("dry_friction", now.dry_friction);
 }
 
 TEST(test_lab_changes_find__leak__is_the_change)
