@@ -344,8 +344,7 @@ static void place_on_rows(lab_logs *logs, int on_rows)
     logs->run[e].on_rows = on_rows;
 }
 
-/* Whether the rows of all runs are farther apart than the lags and the clocks of the sensors are known: else these and
- * the instants of commands stand for each other. */
+/* Whether the rows of all runs are farther apart than the lags and the clocks of the sensors are known. */
 static int rows_are_apart(const lab_logs *logs)
 {
   static const char *const instrument[] = {"pressure_lag.pressure_time", "position_lag.position_time",
@@ -361,7 +360,8 @@ static int rows_are_apart(const lab_logs *logs)
 }
 
 /* A controller makes its commands at the rows that it logs. Where a fit asks for that, the declared model is fitted so,
- * and stays so if that is plainly the better fit beside what it leaves.
+ * and stays so if that is plainly the better fit beside what it leaves. Of a model that is off, instants within a row
+ * stand for what the sensors do.
  * In/out:  declared  fitted
  *          chi2      of that */
 static int fit_on_rows(lab_logs *logs, lab_unknowns *declared, double chi2, lab_error *error)
@@ -370,7 +370,8 @@ static int fit_on_rows(lab_logs *logs, lab_unknowns *declared, double chi2, lab_
   lab_unknowns *u;
   double on_rows;
   int status;
-  if (!rows_are_apart(logs) || !lab_unknowns_are_at_rows(declared))
+  if ((chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * (double)declared->m && !rows_are_apart(logs)) ||
+      !lab_unknowns_are_at_rows(declared))
     return LAB_OK;
   u = malloc(sizeof *u);
   if (!u)
