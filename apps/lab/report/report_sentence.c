@@ -371,7 +371,20 @@ static void compare_vent(const lab_report *report, lab_rig *rig, int param)
     *pneu_param_at(&rig->params, param) = (pneu_real)(1 - passes * (double)(now->vent_area / declared->vent_area));
 }
 
-/* "the chamber leaks: 0.0602 mm2, ... (chamber_leak, 3 times what it was)", "no longer: the chamber leaks: ..." */
+/* What an effect was before: of what may have either sign, such as a zero, its size; else the ratio. */
+static void say_before(const lab_change *change, double ratio, char text[LAB_SENTENCE_TEXT])
+{
+  const char *unit = lab_change_unit(change);
+  if (!(lab_param_info(change->param).lower < 0))
+    ADD(text, ", %s times what it was", LAB_NUMBER(ratio, 3));
+  else if (strcmp(unit, "1") == 0)
+    ADD(text, ", %s %% before", LAB_NUMBER(100 * change->then, 2));
+  else
+    ADD(text, ", %s before", LAB_QUANTITY(change->then, unit, 3));
+}
+
+/* "the chamber leaks: 0.0602 mm2, ... (chamber_leak, 3 times what it was)", "no longer: the chamber leaks: ..."; of
+ * what may have either sign, "(position_bias, 0.136 mm before)" */
 static void say_effect(const lab_report *report, const lab_change *change, char text[LAB_SENTENCE_TEXT])
 {
   static const double comparable = 20; /* times: beyond, it was hardly there, by judgement */
@@ -386,8 +399,8 @@ static void say_effect(const lab_report *report, const lab_change *change, char 
   *sentence = (char)tolower((unsigned char)*sentence);
   ADD(text, "%s%.*s (%s", is_gone ? "no longer: " : "", (int)strlen(sentence) - 1, sentence,
       lab_change_name(change->param, name));
-  if (ratio > 1 / comparable && ratio < comparable)
-    ADD(text, ", %s times what it was", LAB_NUMBER(ratio, 3));
+  if (fabs(ratio) > 1 / comparable && fabs(ratio) < comparable)
+    say_before(change, ratio, text);
   ADD(text, ")");
 }
 

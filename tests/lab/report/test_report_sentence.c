@@ -369,6 +369,12 @@ TEST(test_lab_report_headline__since_the_baseline__is_told_in_the_same_words)
   changes.change[0] = (lab_change){.param = pneu_param_find("vent_restriction"), .then = -0.003, .now = 0.3};
   lab_report_headline(&report, text);
   assert_contains(text, "the vent passes 30 % less than declared (vent_restriction). ");
+  changes.change[0].then = 0.027;
+  lab_report_headline(&report, text);
+  assert_contains(text, "declared (vent_restriction, 2.7 % before). ");
+  changes.change[0] = (lab_change){.param = pneu_param_find("position_bias"), .then = -1.4e-4, .now = 1.56e-3};
+  lab_report_headline(&report, text);
+  assert_contains(text, " (position_bias, -0.140 mm before). ");
 }
 
 /* What has changed is not told again as what is missing. */
