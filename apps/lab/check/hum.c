@@ -11,43 +11,50 @@
 enum { ROWS_FEWEST = 512, HARMONICS = 3, NEIGHBOURS = 16 };
 
 static const double two_pi = 6.283185307179586;
-static const double clear = 40;     /* times what its neighbours explain: a line that stands out */
-static const double apart = 0.01;   /* of the frequency: from neighbour to neighbour */
-static const double clipped = 5;    /* median sizes, to which a second difference is cut: strokes do not count */
-static const double steady = 0.3;   /* of the amplitude: both halves of a run have it alike */
-static const double visible = 0.12; /* of the median second difference, a fifth of white noise: less does no harm */
-static const double grid = 3e-3;    /* of its frequency, by which the mains and a logger's clock may be off */
-static const double slowest = 20;   /* rows a second: of fewer, most frequencies are what the mains would look like */
+static const double clear = 40;   /* times what its neighbours explain: a line that stands out */
+static const double apart = 0.01; /* of the frequency: from neighbour to neighbour */
+static const double clipped = 5;  /* median sizes, to which a second difference is cut: strokes do not count */
+static const double steady = 0.3; /* of the amplitude: both halves of a run have it alike */
+static const double visible =
+    0.12;                         /* of the median of these, of white noise a fifth, or a twelfth: less does no harm */
+static const double grid = 3e-3;  /* of its frequency, by which the mains and a logger's clock may be off */
+static const double slowest = 20; /* rows a second: of fewer, most frequencies are what the mains would look like */
 static const double mains[] = {50, 60};                       /* Hz */
 static const double lowest = 1.0 / 16;                        /* periods a row: what is slower may be the rig's */
 static const double slowest_left = 8, lowest_left = 1.0 / 50; /* of what a model leaves, in which strokes are small */
 
-/* Rows of a run: times, and second differences of a channel, in which what is slow is small; NaN beside a gap. */
+/* Rows of a run: times, and values of a channel, or second differences, in which what is slow is small; NaN at a gap.
+ */
 typedef struct rows {
   const double *t, *d;
   size_t n;
+  size_t order; /* 2: second differences; 0: values */
 } rows;
 
 /* a cos(2 pi f t) + b sin(2 pi f t) */
 typedef struct wave {
   double f, a, b;
-  double explained; /* of the squares of the second differences */
+  double explained; /* of the squares of `rows.d` */
 } wave;
 
-static void differentiate(const double *y, size_t n, double *d)
+static void differentiate(const double *y, size_t n, size_t order, double *d)
 {
   size_t i;
+  if (order == 0) {
+    memcpy(d, y, n * sizeof *d);
+    return;
+  }
   d[0] = d[n - 1] = (double)NAN;
   for (i = 1; i + 1 < n; i++)
     d[i] = y[i + 1] - 2 * y[i] + y[i - 1];
 }
 
 /* The same, cut where a stroke begins or ends.  Returns: their median size, 0 if there are none */
-static double sharpen(const double *y, size_t n, double *d, double *size)
+static double sharpen(const double *y, size_t n, size_t order, double *d, double *size)
 {
   double usual;
   size_t i, m = 0;
-  differentiate(y, n, d);
+  differentiate(y, n, order, d);
   for (i = 0; i < n; i++)
     if (!isnan(d[i]))
       size[m++] = fabs(d[i]);
@@ -70,15 +77,15 @@ static wave fit_wave(const rows *r, size_t from, size_t n, double f)
     double x, y;
     c[0] = c[1], c[1] = c[2], c[2] = cos(angle);
     s[0] = s[1], s[1] = s[2], s[2] = sin(angle);
-    if (i < 2 || isnan(r->d[from + i - 1]))
+    if (i < r->order || isnan(r->d[from + i - r->order / 2]))
       continue;
-    x = c[2] - 2 * c[1] + c[0];
-    y = s[2] - 2 * s[1] + s[0];
+    x = r->order ? c[2] - 2 * c[1] + c[0] : c[2];
+    y = r->order ? s[2] - 2 * s[1] + s[0] : s[2];
     cc += x * x;
     ss += y * y;
     cs += x * y;
-    cd += x * r->d[from + i - 1];
-    sd += y * r->d[from + i - 1];
+    cd += x * r->d[from + i - r->order / 2];
+    sd += y * r->d[from + i - r->order / 2];
   }
   cc += ridge * (cc + ss);
   ss += ridge * (cc + ss);
@@ -139,10 +146,10 @@ static int is_steady(const rows *r, const wave *v)
  * follows it is no hum.  In: d  room for a run */
 static int is_commanded(const double *u, const rows *r, double f, double *d)
 {
-  const rows commanded = {r->t, d, r->n};
+  const rows commanded = {r->t, d, r->n, 2};
   double sum = 0;
   size_t i;
-  differentiate(u, r->n, d);
+  differentiate(u, r->n, 2, d);
   for (i = 0; i < r->n; i++)
     sum += isnan(d[i]) ? 0 : d[i] * d[i];
   return fit_wave(&commanded, 0, r->n, f).explained > clear * 2 * sum / (double)r->n;
@@ -166,12 +173,12 @@ int lab_may_be_hum(double f, double rate)
 
 /* One line off one channel of a run, of which u is the command, or NULL.  Returns: it; a and b are 0 if there is none
  */
-static wave remove_line(const double *t, double *y, const double *u, size_t n, double f, double *room)
+static wave remove_line(const double *t, double *y, const double *u, size_t n, double f, size_t order, double *room)
 {
   static const wave none = {0, 0, 0, 0};
   double *d = room;
-  const double usual = sharpen(y, n, d, room + n);
-  const rows r = {t, d, n};
+  const double usual = sharpen(y, n, order, d, room + n);
+  const rows r = {t, d, n, order};
   wave v;
   size_t i;
   if (!(usual > 0))
@@ -186,11 +193,12 @@ static wave remove_line(const double *t, double *y, const double *u, size_t n, d
 }
 
 /* Every line off n rows of a channel from `first` on.
- * In:      slow  periods a row that tell a line from what the rig does
+ * In:      slow   periods a row that tell a line from what the rig does
+ *          order  as of rows
  * In/out:  y     those rows, or what is left of them
  * Returns: how many lines */
-static int remove_from(lab_log *log, size_t first, size_t n, int channel, double slow, double *y, double *room,
-                       double rate)
+static int remove_from(lab_log *log, size_t first, size_t n, int channel, double slow, size_t order, double *y,
+                       double *room, double rate)
 {
   const int command = lab_log_command(log);
   const double *u = command < 0 ? NULL : log->value[command] + first;
@@ -200,7 +208,7 @@ static int remove_from(lab_log *log, size_t first, size_t n, int channel, double
       const double f = k * mains[i];
       wave v = {0, 0, 0, 0};
       if (sampled(f, rate) > slow * rate)
-        v = remove_line(log->value[LAB_CHANNEL_TIME] + first, y, u, n, f, room);
+        v = remove_line(log->value[LAB_CHANNEL_TIME] + first, y, u, n, f, order, room);
       lines += v.a != 0 || v.b != 0;
       if (!(hypot(v.a, v.b) > log->hum[channel].amplitude))
         continue;
@@ -241,7 +249,7 @@ int lab_log_remove_hum(lab_log *log, lab_limitations *limitations, lab_error *er
       const size_t first = log->run[run], n = log->run[run + 1] - first;
       const double rate = n >= ROWS_FEWEST ? rate_of(log->value[LAB_CHANNEL_TIME] + first, n, room) : 0;
       if (rate > slowest)
-        remove_from(log, first, n, c, lowest, log->value[c] + first, room, rate);
+        remove_from(log, first, n, c, lowest, 2, log->value[c] + first, room, rate);
     }
     if (log->hum[c].amplitude > 0)
       say(log, c, limitations);
@@ -262,7 +270,7 @@ int lab_log_remove_hum_left(lab_log *log, size_t first, size_t n, int channel, c
   rate = n >= ROWS_FEWEST ? rate_of(log->value[LAB_CHANNEL_TIME] + first, n, y) : 0;
   memcpy(y, left, n * sizeof *y);
   if (rate > slowest_left)
-    *lines = remove_from(log, first, n, channel, lowest_left, y, y + n, rate);
+    *lines = remove_from(log, first, n, channel, lowest_left, 0, y, y + n, rate);
   for (i = 0; i < n; i++)
     value[i] += y[i] - left[i];
   if (*lines > 0)
