@@ -142,7 +142,8 @@ static int take_held(lab_finding *f, lab_candidate *within, lab_error *error)
   return status;
 }
 
-/* The declared model within its tolerances, or what begins within the logs where that explains them.
+/* The declared model within its tolerances, or what begins within the logs where that explains them, unless a preview
+ * has looked for that in vain.
  * In:      u       the declared model, fitted
  * In/out:  begun   with the errors of the declared model; then what begins
  * Out:     within  with what is held, fitted; where something begins as u
