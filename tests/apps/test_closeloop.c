@@ -165,7 +165,7 @@ TEST(test_closeloop__row_of_the_time_before__is_spread_and_counted)
 {
   bad_log b = sound;
   b.t[500] = b.t[499];
-  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "1 rows of ");
+  assert_limited(bad_rig("rig.cfg", ""), &b, "none", "spread over the step of the clock: 1;");
 }
 
 /* A row whose time is that of the row before is left out where the rig file asks for it, and counted. */

@@ -1,6 +1,5 @@
 #include "change.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -166,11 +165,11 @@ static int follow(lab_sides *c, extension *x, lab_error *error)
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* The order in which changes that are as good are named: orifices, parameters, effects; the vent by that of its effect.
- */
+/* The order in which changes that are as good are named: orifices, parameters, effects; the vent's area after its
+ * effect. */
 static int order_of(int param)
 {
-  return param == LAB_PARAM_ORIFICE_AREA ? -1 : param == PNEU_PARAM_vent_area ? INT_MAX : param;
+  return param == LAB_PARAM_ORIFICE_AREA ? -1 : param == PNEU_PARAM_vent_area ? LAB_PARAM_COUNT : param;
 }
 
 /* Schwarz's criterion. */
@@ -370,17 +369,21 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-/* Whether a change is more than what the model leaves may feign: of the many effects one or the other bends to that, so
- * that a new one has to be as plain as one that is added (PLAIN_BIC) and to take as much off what is left of the new
- * logs (MIN_GAIN), unless it is known how far it differs by itself. */
-static int is_plain(const lab_sides *c, const lab_rest *left, const lab_change *change)
+/* Whether a change is an effect that was not there before, and of which nobody knows how far it differs by itself: of
+ * many one or the other bends to what the model leaves. */
+static int is_new(const lab_sides *c, const lab_change *change)
 {
-  const double worth = 2 * lab_constant(LAB_MIN_GAIN) * left->now * left->now * (double)left->n;
+  const lab_repeat *repeat = lab_repeat_find(change->param);
   const int j = lab_unknowns_find(&c->u, change->param);
-  const int is_new = change->then == (double)lab_param_info(change->param).neutral ||
-                     (j >= 0 && lab_unknown_is_held(&c->u.unknown[j]));
-  return pneu_effect_of(change->param) < 0 || !is_new || lab_repeat_find(change->param) ||
-         change->statistic > fmax(lab_constant(LAB_PLAIN_BIC), worth);
+  return pneu_effect_of(change->param) >= 0 && !(repeat && lab_repeat_spread(repeat, &c->u.rig, c->row) > 0) &&
+         (change->then == (double)lab_param_info(change->param).neutral ||
+          (j >= 0 && lab_unknown_is_held(&c->u.unknown[j])));
+}
+
+/* Whether it takes as much off what is left of the new logs as an effect that is added. */
+static int is_worth_telling(const lab_rest *left, const lab_change *change)
+{
+  return change->statistic > 2 * lab_constant(LAB_MIN_GAIN) * left->now * left->now * (double)left->n;
 }
 
 /* Whether the logs tell the value of a change from none. */
@@ -413,9 +416,10 @@ static int describe(lab_sides *c, const lab_rest *left, lab_changes *changes, in
       status = error->status;
       break;
     }
-    if (!(change->p_value < changes->level) || !is_plain(c, left, change))
+    if (!(change->p_value < changes->level) ||
+        (is_new(c, change) && !(change->statistic > lab_constant(LAB_PLAIN_BIC))))
       continue;
-    if (followed || is_known(c, fit, change))
+    if (followed || (is_known(c, fit, change) && (!is_new(c, change) || is_worth_telling(left, change))))
       changes->n++;
     else
       *unknown = 1;
@@ -449,11 +453,13 @@ static void conclude(const lab_rest *left, int unknown, lab_changes *changes)
         changes->why, sizeof changes->why,
         "a model of both leaves %.2f times the noise of the baseline, and no change in the list explains the new log",
         changes->then);
-  } else if (!changes->n && (unknown || lab_rest_is_strained(left))) {
+  } else if (!changes->n && !*changes->why && (unknown || lab_rest_is_strained(left))) {
     changes->condition = LAB_SINCE_CANNOT_TELL;
-    snprintf(changes->why, sizeof changes->why,
-             unknown ? "something has, but the logs do not tell the value of what would explain it"
-                     : "something has, as values differ by more than from day to day, and the logs do not tell which");
+    snprintf(
+        changes->why, sizeof changes->why,
+        unknown
+            ? "something may have, but the logs do not tell the value of what would explain it, or that is too small"
+            : "something has, as values differ by more than from day to day, and the logs do not tell which");
   }
 }
 
@@ -508,25 +514,26 @@ static double most_tests(double alpha)
 }
 
 /* Whether what was taken up first explains more than what may differ from day to day does without it: else the model is
- * the one without it, fitted. Where the time ends it stays.
- * In/out:  c      with one change
- * Out:     taken  whether it stays */
-static int compare_with_none(lab_sides *c, double level, int *taken, lab_error *error)
+ * the one without it, fitted. Where that cannot be fitted, or the time ends, it stays.
+ * In:      n_free  what it added to the fit
+ * In/out:  c       with one change */
+static int stands_alone(lab_sides *c, double level, int n_free)
 {
+  lab_error error = {LAB_OK, ""};
   lab_unknowns *without = malloc(sizeof *without);
   double chi2;
-  int status = without ? leave_out(c, 0, without, &chi2, error) : lab_fail_memory(error, "changes");
-  *taken = status != LAB_OK || lab_chi2_tail(fmax(chi2 - c->chi2, 0), c->shape[0] >= 0 ? 2 : 1) < level;
-  if (status == LAB_OK && *taken)
+  const int fitted = without && leave_out(c, 0, without, &chi2, &error) == LAB_OK && !lab_cpu_is_spent(c->u.until);
+  const int stands = !fitted || lab_chi2_tail(fmax(chi2 - c->chi2, 0), n_free) < level;
+  if (fitted && stands)
     c->without_first = chi2;
-  else if (status == LAB_OK) {
+  if (!stands) {
     c->u = *without;
     c->chi2 = chi2;
     c->n = 0;
     memset(&c->change[0], 0, sizeof c->change[0]);
   }
   free(without);
-  return status == LAB_WORLD ? status : LAB_OK;
+  return stands;
 }
 
 /* Name the other effects that explain as much as a suspect. */
@@ -539,17 +546,18 @@ static void list_alike(const lab_suspect *s, lab_change *change)
 
 /* Take up the first suspect that explains the new logs.
  * Out:  taken
- *       fitted  whether the model without any is fitted */
-static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, int *fitted, lab_error *error)
+ *       without  whether `c` is the model without any, fitted: one explained them that a day's differences do as well
+ */
+static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, int *without, lab_error *error)
 {
   const double level = most_tests(of->alpha);
   extension *x = calloc(1, sizeof *x);
   int i;
-  *taken = *fitted = 0;
+  *taken = *without = 0;
   if (!x)
     return lab_fail_memory(error, "changes");
   error->status = LAB_OK;
-  for (i = 0; i < of->n_suspects && !*taken && error->status == LAB_OK; i++) {
+  for (i = 0; i < of->n_suspects && !*taken && !*without && error->status == LAB_OK; i++) {
     const lab_suspect *s = &of->suspect[i];
     x->u = c->u;
     refit_from(c, &s->score, s->score.size, level, NULL, x, error);
@@ -557,8 +565,8 @@ static int take_suspect(lab_sides *c, const lab_comparison *of, int *taken, int 
       continue;
     take(c, x, NULL, 0);
     list_alike(s, &c->change[0]);
-    if (compare_with_none(c, level, taken, error) == LAB_OK)
-      *fitted = !*taken;
+    *taken = stands_alone(c, level, x->n_free);
+    *without = !*taken;
   }
   free(x);
   return error->status;
@@ -568,11 +576,11 @@ static int compare(lab_sides *c, const lab_comparison *of, lab_changes *changes,
 {
   extension *course = malloc(sizeof *course);
   lab_rest left;
-  int unknown = 0, taken = 0, fitted = 0,
+  int unknown = 0, taken = 0, without = 0,
       status = course ? follow(c, course, error) : lab_fail_memory(error, "a course");
   if (status == LAB_OK && !course->fitted)
-    status = take_suspect(c, of, &taken, &fitted, error);
-  if (status == LAB_OK && !taken && !fitted)
+    status = take_suspect(c, of, &taken, &without, error);
+  if (status == LAB_OK && !taken && !without)
     status = lab_sides_approach(&c->u, &c->chi2, error);
   if ((status == LAB_OK && (taken || course->fitted || may_have_changed(c, error))) ||
       (status == LAB_NUMERIC && course->fitted))

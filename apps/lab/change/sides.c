@@ -249,29 +249,21 @@ int lab_sides_join(const lab_comparison *of, lab_sides *c, lab_error *error)
 
 /* ---- What is left ---- */
 
-/* What is left of runs first .. end - 1, over what counts as noise. */
-static double left_of(const lab_unknowns *u, const double *r, int first, int end)
+/* What is left of runs first .. end - 1, over what counts as noise.  Out: n  of values */
+static double left_of(const lab_unknowns *u, const double *r, int first, int end, size_t *n)
 {
-  double sum = 0, n = 0;
+  double sum = 0;
   int e, k;
   size_t i;
+  *n = 0;
   for (e = 0; e < end; e++)
     for (k = 0; k < u->run[e].n_channels; k++)
       for (i = 0; i < u->run[e].n; i++, r++)
         if (e >= first && *r != 0) {
           sum += *r * *r;
-          n++;
+          ++*n;
         }
-  return n > 0 ? sqrt(sum / n) : 0;
-}
-
-static size_t rows_of(const lab_unknowns *u, int first)
-{
-  size_t n = 0;
-  int e;
-  for (e = first; e < u->n_runs; e++)
-    n += u->run[e].n * (size_t)u->run[e].n_channels;
-  return n;
+  return *n > 0 ? sqrt(sum / (double)*n) : 0;
 }
 
 /* Deviations by which what differs from day to day does so, the largest. */
@@ -290,9 +282,8 @@ int lab_sides_rest(const lab_unknowns *u, int first, lab_rest *left, lab_error *
   double *r = malloc((u->m + 1) * sizeof *r);
   const int status = r ? lab_unknowns_residuals((void *)u, NULL, r, error) : lab_fail_memory(error, "residuals");
   if (status == LAB_OK) {
-    left->then = left_of(u, r, 0, first);
-    left->now = left_of(u, r, first, u->n_runs);
-    left->n = rows_of(u, first);
+    left->then = left_of(u, r, 0, first, &left->n);
+    left->now = left_of(u, r, first, u->n_runs, &left->n);
     left->chi2 = lab_dot(r, r, u->m);
     left->strain = strain_of(u);
   }

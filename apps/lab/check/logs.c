@@ -55,10 +55,10 @@ int lab_logs_add(lab_logs *b, const lab_rig *rig, const char *path, lab_error *e
     lab_limitation(&b->limitations, "%s: %zu damaged rows of %zu are left out, as log.damaged asks.",
                    lab_file_name(log->path), log->dropped, log->dropped + log->outside + log->n);
   if (log->repeated > 0)
-    lab_limitation(
-        &b->limitations,
-        "%s: %zu rows of %zu have the time of the row before; rows of one time are spread over the step to the next.",
-        lab_file_name(log->path), log->repeated, log->n);
+    lab_limitation(&b->limitations,
+                   "%s: rows with the time of the row before, spread over the step of the clock: %zu; "
+                   "log.damaged = \"drop\" leaves them out.",
+                   lab_file_name(log->path), log->repeated);
   for (run = 0; run < log->n_runs; run++) {
     if (b->n == LAB_RUNS_MAX)
       return lab_fail(error, LAB_DATA, "%s: more than %d runs in all", path, (int)LAB_RUNS_MAX);

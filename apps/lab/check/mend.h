@@ -8,12 +8,6 @@
 #include "../log/log.h"
 #include "../rig/rig.h"
 
-/* Where the stamps of a run lie on a grid that is coarse beside its rows, and rows at even distances would have been
- * rounded to just these stamps, they are taken to have been recorded at even distances. Rows that are missing do not
- * count; a run of other stamps stays as it is.
- * In/out:  log  its times; clock_step becomes the grid [s] on which its stamps lie unevenly, 0 if none */
-void lab_log_even_stamps(lab_log *log, lab_limitations *limitations);
-
 /* Take lines off the spectrum of p, x, T and force that stand on a log from its first row to its last, whatever the
  * stem and the chamber do: the hum of the mains, 50 or 60 Hz and two harmonics, within 0.3 %, or what sampling makes of
  * it. Only what is fast counts, of at most 16 rows a period; rows at uneven distances, or fewer than 20 a second, have

@@ -279,7 +279,7 @@ static int finish(struct reader *r)
   if (r->format->n_quantities && lab_log_join(log, r->error))
     return r->error->status;
   log->run[log->n_runs] = log->n;
-  if (lab_log_spread_repeats(log, r->error))
+  if (lab_log_part_repeats(log, r->error))
     return r->error->status;
   clip_command(log, r->format);
   return lab_log_shape(log, r->format, r->error);

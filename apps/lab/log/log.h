@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+#include "../base/limitations.h"
 #include "logformat.h"
 
 enum { LAB_READ_AS_TEXT = 800 };
@@ -44,6 +45,12 @@ typedef struct lab_log {
  * Out:     log      to be freed with lab_log_free; empty after an error
  * Returns: LAB_OK; LAB_DATA with file, line, column, what was expected and what was found; LAB_WORLD. */
 int lab_log_read(const char *path, const lab_log_format *format, double ambient, lab_log *log, lab_error *error);
+
+/* Where the stamps of a run lie on a grid that is coarse beside its rows, and rows at even distances would have been
+ * rounded to just these stamps, they are taken to have been recorded at even distances. Rows that are missing do not
+ * count; a run of other stamps stays as it is.
+ * In/out:  log  its times; clock_step becomes the grid [s] on which its stamps lie unevenly, 0 if none */
+void lab_log_even_stamps(lab_log *log, lab_limitations *limitations);
 
 void lab_log_free(lab_log *log);
 

@@ -114,16 +114,19 @@ int lab_map_is_named(const lab_heading *heading, int n);
 int lab_long_check(lab_csv *csv, const lab_log_format *format, const lab_guess *guess, const lab_heading *heading,
                    lab_error *error);
 
-/* ---- Rows of one time (logrepeat.c) ---- */
+/* ---- Times of a clock that goes in steps (logstamps.c) ---- */
 
 #define LAB_LEAVE_OUT "; to leave such rows out, write into the rig file: log = { damaged = \"drop\"; };"
 #define LAB_EXPECTED_LATER "channel t: expected more than the %.9g s of the row before, found %.9g s%s%s"
 
-/* A clock that goes in steps gives several rows one time: they are spread evenly over the step to the next. More rows
- * than come in that step are no such thing.
+/* As lab_log_even_stamps (log.h), in silence. */
+void lab_log_make_even(lab_log *log);
+
+/* Such a clock may give several rows one time. Where they cannot be made even they are spread over its step. More than
+ * twice the usual number and one are no such thing.
  * In/out:  log  its times, and `repeated`
  * Returns: LAB_OK; LAB_DATA with the line. */
-int lab_log_spread_repeats(lab_log *log, lab_error *error);
+int lab_log_part_repeats(lab_log *log, lab_error *error);
 
 /* ---- The last steps: rows in the order and the number that the format asks for (logshape.c) ---- */
 

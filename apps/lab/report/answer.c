@@ -353,8 +353,10 @@ static int rows_are_apart(const lab_logs *logs)
   for (e = 0; e < logs->n; e++) {
     const lab_run *x = &logs->run[e];
     const double *t = x->log->value[LAB_CHANNEL_TIME] + x->first;
-    for (i = 0; i < 3; i++)
-      apart &= t[x->n - 1] - t[0] > (double)x->n * lab_tolerance(x->rig, lab_param_index(instrument[i]));
+    for (i = 0; i < 3; i++) {
+      const int param = lab_param_index(instrument[i]);
+      apart &= param < 0 || t[x->n - 1] - t[0] > (double)x->n * lab_tolerance(x->rig, param);
+    }
   }
   return apart;
 }
@@ -370,7 +372,7 @@ static int fit_on_rows(lab_logs *logs, lab_unknowns *declared, double chi2, lab_
   lab_unknowns *u;
   double on_rows;
   int status;
-  if ((chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * (double)declared->m && !rows_are_apart(logs)) ||
+  if ((chi2 > lab_constant(LAB_NOISE_DOUBTFUL) * (double)declared->n_values && !rows_are_apart(logs)) ||
       !lab_unknowns_are_at_rows(declared))
     return LAB_OK;
   u = malloc(sizeof *u);

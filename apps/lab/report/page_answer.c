@@ -197,7 +197,8 @@ static void put_why(const lab_sources *t, cJSON *page)
     (r->found[i].effect < 0 ? put_unlisted : put_effect)(t, &r->found[i], item);
     put_strength(t, &r->found[i], item);
   }
-  if (r->n_found == 0 && r->n_listed == 0 && r->scores.n > 0 && r->level > 0)
+  if (r->n_found == 0 && r->n_listed == 0 && r->scores.n > 0 && r->level > 0 &&
+      r->scores.of[0].statistic < lab_chi2_threshold(r->level))
     lab_json_say(reasons, "The effect with the highest score is %s: %s. Above %s it would be significant.",
                  name_of(r->scores.of[0].effect), LAB_NUMBER(r->scores.of[0].statistic, 3),
                  LAB_NUMBER(lab_chi2_threshold(r->level), 3));

@@ -13,7 +13,7 @@ static lab_rig rig;
 static lab_changes changes; /* of the comparison that was made last */
 static lab_suspect suspect[2];
 static int n_suspects;
-static int decided = 1; /* whether the model explains the baseline */
+static int undecided; /* not 0: the model does not explain the baseline */
 
 static void write_log(const second_rig *g, const double *u_of, const char *path)
 {
@@ -41,7 +41,7 @@ static void compare_logs(const char *const path[2])
     virtual_open(&rig, path[i], &log[i], &run[i]);
   succeed(lab_unknowns_open(&rig, run, 1, &u, &error));
   succeed(lab_unknowns_fit(&u, LAB_ROUNDS_ALL, NULL, &error));
-  succeed(lab_changes_find(&(lab_comparison){&u, decided, run + 1, 1, suspect, n_suspects, 0.01}, &changes, &error));
+  succeed(lab_changes_find(&(lab_comparison){&u, !undecided, run + 1, 1, suspect, n_suspects, 0.01}, &changes, &error));
 }
 
 static void compare_files(const char *rig_name, const char *then, const char *now)
@@ -171,9 +171,9 @@ TEST(test_lab_changes_find__friction_beyond_another_day__is_no_matter_of_an_unex
 {
   second_rig now = virtual_rig(8);
   now.dry_friction *= 1.5;
-  decided = 0;
+  undecided = 1;
   compare(&now);
-  decided = 1;
+  undecided = 0;
   assert_change("dry_friction", now.dry_friction);
 }
 

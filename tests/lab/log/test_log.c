@@ -700,7 +700,7 @@ CASE(test_lab_log_read__repeated_time_with_runs__is_still_refused)
   assert_refused("t [s],u [1]\n0,0\n0,0\n", "log.csv:3:", "channel t");
 }
 
-/* A clock of 0.1 s; the last rows by the step before them. */
+/* A clock of 0.1 s. */
 CASE(test_lab_log_read__rows_of_one_time__are_spread_over_the_step)
 {
   static const double even[] = {0, 0.1, 0.15, 0.2, 0.3, 0.35};
@@ -710,16 +710,38 @@ CASE(test_lab_log_read__rows_of_one_time__are_spread_over_the_step)
 }
 
 /* Ten rows a second, times to the second. */
-CASE(test_lab_log_read__times_to_the_second__are_spread_over_it)
+CASE(test_lab_log_read__times_to_the_second__are_even_again)
+{
+  char text[8000] = "t [s],u [1]\n";
+  size_t i;
+  for (i = 0; i < 1000; i++)
+    sprintf(text + strlen(text), "%zu,0\n", i / 10);
+  read_log(text);
+  for (i = 1; i < 1000; i++)
+    assert_close(rows.value[LAB_CHANNEL_TIME][i] - rows.value[LAB_CHANNEL_TIME][i - 1], 0.1, 1e-4, 0);
+  assert_int_equal(rows.repeated, 0);
+}
+
+/* The rows before a pause are not spread over it, nor the last ones. */
+CASE(test_lab_log_read__rows_of_one_time_before_a_pause__keep_the_step)
+{
+  static const double parted[] = {0, 1, 2, 3, 3.5, 60, 61, 61.5};
+  read_log("t [s],u [1]\n0,0\n1,0\n2,0\n3,0\n3,0\n60,0\n61,0\n61,0\n");
+  check_column(LAB_CHANNEL_TIME, 1e-12, parted, 8);
+}
+
+/* Rows every 7 ms, of a clock of 10 ms. */
+CASE(test_lab_log_read__even_rows_of_a_coarse_clock__are_even_again)
 {
   char text[2000] = "t [s],u [1]\n";
   size_t i;
-  for (i = 0; i < 50; i++)
-    sprintf(text + strlen(text), "%zu,0\n", i / 10);
+  for (i = 0; i < 100; i++)
+    sprintf(text + strlen(text), "%.2f,0\n", 0.01 * floor(0.7 * (double)i + 0.5));
   read_log(text);
-  for (i = 0; i < 50; i++)
-    assert_close(rows.value[LAB_CHANNEL_TIME][i], 0.1 * (double)i, 1e-12, 0);
-  assert_int_equal(rows.repeated, 45);
+  for (i = 1; i < 100; i++)
+    assert_close(rows.value[LAB_CHANNEL_TIME][i] - rows.value[LAB_CHANNEL_TIME][i - 1], 0.007, 1e-5, 0);
+  assert_int_equal(rows.repeated, 0);
+  assert_close(rows.clock_step, 0.01, 1e-12, 0);
 }
 
 CASE(test_lab_log_read__clock_that_stands_for_longer_than_a_step__is_refused)

@@ -1,4 +1,5 @@
-#include "mend.h"
+/* Times of a clock that goes in steps. */
+#include "logread.h"
 
 #include <math.h>
 
@@ -115,11 +116,10 @@ static void spread(lab_log *log, size_t first, size_t n, double grid)
   }
 }
 
-void lab_log_even_stamps(lab_log *log, lab_limitations *limitations)
+void lab_log_make_even(lab_log *log)
 {
   size_t run;
   double grid;
-  char text[LAB_FORMAT_TEXT];
   if (log->n < FEWEST)
     return;
   grid = grid_of(log->value[LAB_CHANNEL_TIME], log->n);
@@ -128,7 +128,87 @@ void lab_log_even_stamps(lab_log *log, lab_limitations *limitations)
     if (n >= FEWEST)
       spread(log, first, n, grid);
   }
+}
+
+void lab_log_even_stamps(lab_log *log, lab_limitations *limitations)
+{
+  char text[LAB_FORMAT_TEXT];
+  if (!(log->clock_step > 0))
+    lab_log_make_even(log);
   if (log->clock_step > 0)
     lab_limitation(limitations, "%s: the time is rounded to %s; the rows are taken to be at even distances.",
-                   lab_file_name(log->path), lab_format_quantity(grid, "s", 3, text));
+                   lab_file_name(log->path), lab_format_quantity(log->clock_step, "s", 3, text));
+}
+
+/* ---- Rows of one time ---- */
+
+static int refuse(const lab_log *log, size_t row, lab_error *error)
+{
+  const double t = log->value[LAB_CHANNEL_TIME][row];
+  lab_fail(error, LAB_DATA, LAB_EXPECTED_LATER, t, t, "", LAB_LEAVE_OUT);
+  return lab_fail_in(error, "%s:%d", log->path, log->line[row]);
+}
+
+/* Rows of one time, from one on. */
+static size_t rows_of_time(const double *t, size_t from, size_t end)
+{
+  size_t i = from + 1;
+  while (i < end && t[i] == t[from])
+    i++;
+  return i - from;
+}
+
+/* The step of the clock, which is the least from one time to the next, 0 if all are one.  Out: times  different ones */
+static double step_of(const double *t, size_t first, size_t end, size_t *times)
+{
+  double step = 0;
+  size_t i;
+  *times = 1;
+  for (i = first + 1; i < end; i++)
+    if (t[i] > t[i - 1]) {
+      step = *times == 1 ? t[i] - t[i - 1] : fmin(step, t[i] - t[i - 1]);
+      ++*times;
+    }
+  return step;
+}
+
+static int part(lab_log *log, size_t first, size_t end, lab_error *error)
+{
+  double *t = log->value[LAB_CHANNEL_TIME];
+  size_t times, i, k, m;
+  const double step = step_of(t, first, end, &times);
+  const size_t most = 2 * (end - first) / times + 1; /* rows of one time: some come late, by judgement */
+  for (i = first; i < end; i += m) {
+    const double begin = t[i];
+    m = rows_of_time(t, i, end);
+    if (m > 1 && (m > most || !(begin + step / (double)m > begin)))
+      return refuse(log, i + 1, error);
+    for (k = 1; k < m; k++)
+      t[i + k] = begin + step * (double)k / (double)m;
+    log->repeated += m - 1;
+  }
+  return LAB_OK;
+}
+
+/* Whether time does not grow somewhere within a run. */
+static int repeats(const lab_log *log)
+{
+  const double *t = log->value[LAB_CHANNEL_TIME];
+  size_t run, i;
+  int any = 0;
+  for (run = 0; run < log->n_runs; run++)
+    for (i = log->run[run] + 1; i < log->run[run + 1]; i++)
+      any |= !(t[i] > t[i - 1]);
+  return any;
+}
+
+int lab_log_part_repeats(lab_log *log, lab_error *error)
+{
+  size_t run;
+  if (repeats(log))
+    lab_log_make_even(log);
+  for (run = 0; run < log->n_runs; run++)
+    if (part(log, log->run[run], log->run[run + 1], error))
+      return error->status;
+  return LAB_OK;
 }
