@@ -133,7 +133,7 @@ void lab_log_make_even(lab_log *log)
 void lab_log_even_stamps(lab_log *log, lab_limitations *limitations)
 {
   char text[LAB_FORMAT_TEXT];
-  if (!(log->clock_step > 0))
+  if (log->clock_step == 0 && log->stamp_step == 0) /* not where times were one: those have been asked */
     lab_log_make_even(log);
   if (log->clock_step > 0)
     lab_limitation(limitations, "%s: the time is rounded to %s; the rows are taken to be at even distances.",
