@@ -17,6 +17,8 @@ static const double clipped = 5;  /* median sizes, to which a second difference 
 static const double steady = 0.3; /* of the amplitude: both halves of a run have it alike */
 static const double visible =
     0.12;                         /* of the median of these, of white noise a fifth, or a twelfth: less does no harm */
+static const double white = 1.65; /* median second difference of white noise, over its deviation */
+static const double weak = 1.5;   /* deviations of the noise: in values a stronger wave may be the rig's */
 static const double grid = 3e-3;  /* of its frequency, by which the mains and a logger's clock may be off */
 static const double slowest = 20; /* rows a second: of fewer, most frequencies are what the mains would look like */
 static const double mains[] = {50, 60};                       /* Hz */
@@ -177,6 +179,7 @@ static wave remove_line(const double *t, double *y, const double *u, size_t n, d
 {
   static const wave none = {0, 0, 0, 0};
   double *d = room;
+  const double most = order ? HUGE_VAL : weak / white * sharpen(y, n, 2, d, room + n);
   const double usual = sharpen(y, n, order, d, room + n);
   const rows r = {t, d, n, order};
   wave v;
@@ -184,7 +187,7 @@ static wave remove_line(const double *t, double *y, const double *u, size_t n, d
   if (!(usual > 0))
     return none;
   v = tune(&r, f);
-  if (!(hypot(v.a, v.b) > visible * usual) || !stands_out(&r, &v) || !is_steady(&r, &v) ||
+  if (!(hypot(v.a, v.b) > visible * usual && hypot(v.a, v.b) < most) || !stands_out(&r, &v) || !is_steady(&r, &v) ||
       (u && is_commanded(u, &r, v.f, room + n)))
     return none;
   for (i = 0; i < n; i++)
@@ -204,7 +207,7 @@ static int remove_from(lab_log *log, size_t first, size_t n, int channel, double
   const double *u = command < 0 ? NULL : log->value[command] + first;
   int i, k, lines = 0;
   for (i = 0; i < 2; i++)
-    for (k = 1; k <= HARMONICS; k++) {
+    for (k = 1; k <= (order ? HARMONICS : 1); k++) {
       const double f = k * mains[i];
       wave v = {0, 0, 0, 0};
       if (sampled(f, rate) > slow * rate)
@@ -264,13 +267,14 @@ int lab_log_remove_hum_left(lab_log *log, size_t first, size_t n, int channel, c
   double *y = malloc((3 * n + 1) * sizeof *y), *value = log->value[channel] + first;
   double rate;
   size_t i;
+  int order;
   *lines = 0;
   if (!y)
     return lab_fail_memory(error, log->path);
   rate = n >= ROWS_FEWEST ? rate_of(log->value[LAB_CHANNEL_TIME] + first, n, y) : 0;
   memcpy(y, left, n * sizeof *y);
-  if (rate > slowest_left)
-    *lines = remove_from(log, first, n, channel, lowest_left, 0, y, y + n, rate);
+  for (order = 2; rate > slowest_left && order >= 0; order -= 2)
+    *lines += remove_from(log, first, n, channel, lowest_left, (size_t)order, y, y + n, rate);
   for (i = 0; i < n; i++)
     value[i] += y[i] - left[i];
   if (*lines > 0)

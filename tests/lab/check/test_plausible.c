@@ -714,13 +714,14 @@ CASE(test_lab_log_remove_hum__only_the_mains__is_taken_off)
 CASE(test_lab_log_remove_hum_left__slow_line__is_taken_off)
 {
   const humming slow = {50, 52, 3e3, 0, 0}, few = {50, 15.9, 3e3, 0, 0}, other = {48.5, 52, 3e3, 0, 0};
-  const humming weak = {50, 24, 130, 0, 0.03};
+  const humming weak = {50, 24, 130, 0, 0.03}, force = {0.9, 30.3, 3e3, 0, 0.03};
   assert_close(taken_off(&slow), 0, 0, 0);
   assert_close(taken_from(&slow, LEFT), 3e3, 0, 0.02); /* seen as 2 Hz */
   assert_close(taken_off(&few), 0, 0, 0);
   assert_close(taken_from(&few, LEFT), 3e3, 0, 0.02);
   assert_close(taken_from(&weak, LEFT), 130, 0, 0.2); /* less than half the noise of a row */
   assert_close(taken_from(&other, LEFT), 0, 0, 0);
+  assert_close(taken_from(&force, LEFT), 0, 0, 0); /* where 120 Hz would be seen */
 }
 
 CASE(test_lab_log_remove_hum__uneven_rows__are_as_good)

@@ -1,4 +1,4 @@
-/* apps/lab/log/log, and through it logformat, logguess, logheader, logmap, logname, logcolumn, logshape, csv, text */
+/* apps/lab/log/log, and through it logformat, logguess, logheader, logmap, logname, logcolumn, logstamps, logshape, csv, text */
 #include "../../scratch.h"
 
 #include "../../../apps/lab/log/log.h"
