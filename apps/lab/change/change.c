@@ -165,11 +165,10 @@ static int follow(lab_sides *c, extension *x, lab_error *error)
   return status == LAB_WORLD ? status : LAB_OK;
 }
 
-/* The order in which changes that are as good are named: orifices, parameters, effects; the vent's area after its
- * effect. */
+/* The order in which changes that are as good are named: orifices, parameters, effects. */
 static int order_of(int param)
 {
-  return param == LAB_PARAM_ORIFICE_AREA ? -1 : param == PNEU_PARAM_vent_area ? LAB_PARAM_COUNT : param;
+  return param == LAB_PARAM_ORIFICE_AREA ? -1 : param;
 }
 
 /* Schwarz's criterion. */
@@ -369,8 +368,8 @@ static int reach_down(const lab_sides *c, lab_change *change, lab_error *error)
   return status == LAB_NUMERIC ? LAB_OK : status;
 }
 
-/* Whether a change is an effect that was not there before, and of which nobody knows how far it differs by itself: of
- * many one or the other bends to what the model leaves. */
+/* Whether a change, sized up, is an effect that was not there before, and of which nobody knows how far it differs by
+ * itself: of many one or the other bends to what the model leaves. */
 static int is_new(const lab_sides *c, const lab_change *change)
 {
   const lab_repeat *repeat = lab_repeat_find(change->param);
@@ -405,6 +404,7 @@ static int describe(lab_sides *c, const lab_rest *left, lab_changes *changes, in
     lab_change *change = &changes->change[changes->n];
     *change = c->change[i];
     const int followed = c->followed > 0 && i + 1 == c->n;
+    int fresh;
     chi2 = c->without_first;
     status = followed || (c->n == 1 && chi2 > 0) ? LAB_OK : leave_out(c, i, without, &chi2, error);
     if (status != LAB_OK)
@@ -416,10 +416,10 @@ static int describe(lab_sides *c, const lab_rest *left, lab_changes *changes, in
       status = error->status;
       break;
     }
-    if (!(change->p_value < changes->level) ||
-        (is_new(c, change) && !(change->statistic > lab_constant(LAB_PLAIN_BIC))))
+    fresh = is_new(c, change);
+    if (!(change->p_value < changes->level) || (fresh && !(change->statistic > lab_constant(LAB_PLAIN_BIC))))
       continue;
-    if (followed || (is_known(c, fit, change) && (!is_new(c, change) || is_worth_telling(left, change))))
+    if (followed || (is_known(c, fit, change) && (!fresh || is_worth_telling(left, change))))
       changes->n++;
     else
       *unknown = 1;

@@ -225,6 +225,12 @@ static void list_effects(const lab_sides *c, lab_scores *scores)
   }
 }
 
+/* Whether an effect is the other name of a change in a parameter. */
+static int is_an_effect(int param)
+{
+  return param == PNEU_PARAM_vent_area && pneu_effect_find("vent_restriction") >= 0;
+}
+
 /* Whether a parameter is one of a positioner that the rig does not have. */
 static int is_of_no_positioner(const lab_rig *rig, int param)
 {
@@ -245,7 +251,7 @@ static void list_changes(const lab_sides *c, lab_scores *scores)
   }
   for (i = 0; i < lab_repeat_count; i++) {
     const int param = lab_param_index(lab_repeats[i].name);
-    if (lab_repeats[i].tested && !is_of_no_positioner(&c->u.rig, param))
+    if (lab_repeats[i].tested && !is_an_effect(param) && !is_of_no_positioner(&c->u.rig, param))
       list_one(c, param, -1, scores);
   }
   list_effects(c, scores);

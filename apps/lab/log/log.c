@@ -18,6 +18,7 @@ struct reader {
   lab_log *log;
   size_t rows;     /* of data seen, taken or not: the clock of a file without t */
   double last_t;   /* [s] of the last row taken */
+  int repeats;     /* whether a row has the time of the row before */
   double value;    /* long format: number of the row being read */
   int quantity;    /* long format: its row in format->quantity */
   lab_stamp stamp; /* of the row, where the file has dates */
@@ -204,9 +205,12 @@ static int check_time(struct reader *r, double t)
     r->log->run[r->log->n_runs++] = r->log->n;
     return LAB_OK;
   }
-  if ((t < r->last_t || (t <= r->last_t && r->format->damaged == LAB_DAMAGED_DROP)) && r->format->n_quantities == 0)
+  if (t > r->last_t || r->format->n_quantities > 0)
+    return LAB_OK;
+  if (t < r->last_t || r->format->damaged == LAB_DAMAGED_DROP)
     return lab_fail(r->error, LAB_DATA, LAB_EXPECTED_LATER, r->last_t, t,
                     t < r->last_t ? "; if a run begins here: log.new_run = \"t drops\"" : "", LAB_LEAVE_OUT);
+  r->repeats = 1;
   return LAB_OK;
 }
 
@@ -279,7 +283,7 @@ static int finish(struct reader *r)
   if (r->format->n_quantities && lab_log_join(log, r->error))
     return r->error->status;
   log->run[log->n_runs] = log->n;
-  if (lab_log_part_repeats(log, r->error))
+  if (r->repeats && lab_log_part_repeats(log, r->error))
     return r->error->status;
   clip_command(log, r->format);
   return lab_log_shape(log, r->format, r->error);

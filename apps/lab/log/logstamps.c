@@ -116,7 +116,8 @@ static void spread(lab_log *log, size_t first, size_t n, double grid)
   }
 }
 
-void lab_log_make_even(lab_log *log)
+/* As lab_log_even_stamps, in silence. */
+static void make_even(lab_log *log)
 {
   size_t run;
   double grid;
@@ -134,7 +135,7 @@ void lab_log_even_stamps(lab_log *log, lab_limitations *limitations)
 {
   char text[LAB_FORMAT_TEXT];
   if (log->clock_step == 0 && log->stamp_step == 0) /* not where times were one: those have been asked */
-    lab_log_make_even(log);
+    make_even(log);
   if (log->clock_step > 0)
     lab_limitation(limitations, "%s: the time is rounded to %s; the rows are taken to be at even distances.",
                    lab_file_name(log->path), lab_format_quantity(log->clock_step, "s", 3, text));
@@ -190,23 +191,10 @@ static int part(lab_log *log, size_t first, size_t end, lab_error *error)
   return LAB_OK;
 }
 
-/* Whether time does not grow somewhere within a run. */
-static int repeats(const lab_log *log)
-{
-  const double *t = log->value[LAB_CHANNEL_TIME];
-  size_t run, i;
-  int any = 0;
-  for (run = 0; run < log->n_runs; run++)
-    for (i = log->run[run] + 1; i < log->run[run + 1]; i++)
-      any |= !(t[i] > t[i - 1]);
-  return any;
-}
-
 int lab_log_part_repeats(lab_log *log, lab_error *error)
 {
   size_t run;
-  if (repeats(log))
-    lab_log_make_even(log);
+  make_even(log);
   for (run = 0; run < log->n_runs; run++)
     if (part(log, log->run[run], log->run[run + 1], error))
       return error->status;

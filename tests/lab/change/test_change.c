@@ -166,6 +166,23 @@ TEST(test_lab_changes_find__zero_beyond_another_day__is_the_change)
   assert_change("position_bias", now.position_bias);
 }
 
+/* A vent that passes less has one name, whose other is not told beside it. */
+TEST(test_lab_changes_find__vent__is_told_by_its_effect)
+{
+  const second_rig then = virtual_rig(7);
+  second_rig now = virtual_rig(8);
+  int k;
+  if (pneu_effect_find("vent_restriction") < 0)
+    skip();
+  now.vent_area *= 0.55;
+  virtual_declare(&rig);
+  rig.fit[rig.n_fit++] = PNEU_PARAM_dry_friction;
+  compare_declared(&then, &now);
+  assert_change("vent_restriction", 0.45);
+  for (k = 0; k < changes.change[0].n_alike; k++)
+    assert_true(changes.change[0].alike[k] != PNEU_PARAM_vent_area);
+}
+
 /* Values that may differ from day to day can take up all that a change leaves, beyond what a day does. */
 TEST(test_lab_changes_find__friction_beyond_another_day__is_no_matter_of_an_unexplained_baseline)
 {
