@@ -5,8 +5,7 @@ FUZZ_TARGETS ?= log rig study table
 FUZZ_RUNS    ?= -1
 
 # The readers and what they need, without the rest of the programs.
-FUZZ_READERS := $(wildcard apps/lab/log/*.c apps/lab/rig/*.c) \
-                $(addprefix apps/lab/base/,array.c config.c csv.c escape.c interrupt.c line.c message.c names.c noise.c number.c outfile.c quantile.c text.c units.c) \
+FUZZ_READERS := $(wildcard apps/lab/base/*.c apps/lab/log/*.c apps/lab/rig/*.c) \
                 $(addprefix apps/study/,study.c table.c)
 FUZZ_C       := $(LIB_C) $(FUZZ_READERS) tests/fuzz/targets.c tests/fuzz/libfuzzer.c
 FUZZING      := $(BUILD)/fuzzing
