@@ -93,12 +93,16 @@ static int tolerances_are_better(const lab_facts *f)
   return f->within.fitted && f->within.bic < f->best.bic && !lab_is_noise(&f->free_term);
 }
 
+static int a_leader_comes_near(const lab_facts *f)
+{
+  return f->extended.fitted && excess(&f->extended) < lab_constant(LAB_LEADER_NEAR) * excess(&f->declared);
+}
+
 /* Values far beyond their tolerances explain nearly anything: they are no reason to look no further where a leader that
  * needs none comes near. */
 static int tolerances_beat_the_leaders(const lab_facts *f)
 {
-  const int may_be_in_vain =
-      lab_is_strained(&f->within) && excess(&f->extended) < lab_constant(LAB_LEADER_NEAR) * excess(&f->declared);
+  const int may_be_in_vain = lab_is_strained(&f->within) && a_leader_comes_near(f);
   return tolerances_are_better(f) && !may_be_in_vain && f->extended.fitted && f->within.bic < f->extended.bic;
 }
 
@@ -115,7 +119,7 @@ static int an_onset_stands_out(const lab_facts *f)
 
 static int no_leader_is_enough(const lab_facts *f)
 {
-  return something_may_begin(f) && !lab_is_noise(&f->best) && !f->onset.fitted &&
+  return something_may_begin(f) && !lab_is_noise(&f->best) && !f->onset.fitted && !a_leader_comes_near(f) &&
          f->begins > lab_constant(LAB_ONSET_SHARE) * f->throughout;
 }
 
@@ -273,8 +277,8 @@ const lab_rule lab_rules[] = {
      "no value more than STRAINED tolerances off if such a refit leaves less than LEADER_NEAR of the excess.",
      tolerances_beat_the_leaders, "End: the search goes on from values within their tolerances.", LAB_DO_END},
     {LAB_PHASE_LED,
-     "No refit of a leader leaves only noise, no onset was tried yet, and something that may begin scores above "
-     "ONSET_SHARE times all that acts throughout.",
+     "No refit of a leader leaves only noise or less than LEADER_NEAR of the excess, no onset was tried yet, and "
+     "something that may begin scores above ONSET_SHARE times all that acts throughout.",
      no_leader_is_enough, "Refit those that do, and find when they begin.", LAB_DO_FIT_ONSET},
     {LAB_PHASE_LED,
      "The best of these has a lower BIC than the declared model and the leaders, and leaves only noise, or less than "

@@ -391,14 +391,37 @@ static int settle_again(outcome *o, lab_error *error)
   return status;
 }
 
+/* Whether less than what was found cannot explain the logs: it is one thing beside values near their sheet, and without
+ * it these are plainly off within their tolerances as well. */
+static int is_least(const outcome *o, int *least, lab_error *error)
+{
+  lab_candidate *held = NULL;
+  int status = LAB_OK;
+  *least = o->result.verdict == LAB_VERDICT_EFFECT && o->result.n_found == 1 && let_go(&o->declared, &o->completed) == 0;
+  if (*least) {
+    held = calloc(1, sizeof *held);
+    if (!held)
+      return lab_fail_memory(error, "the search");
+    held->u = o->declared;
+    status = lab_candidate_hold(held, error);
+    *least = status == LAB_OK && lab_is_plainly_off(&held->quality);
+  }
+  free(held);
+  return status == LAB_WORLD ? status : LAB_OK;
+}
+
 /* In/out:  o  completed, result  as they were with these values */
 static int run_again(const lab_search_options *options, outcome *o, lab_error *error)
 {
+  int least, status;
   lab_unknowns_view(&o->declared, 0); /* counts the values that are left */
   if (lab_unknowns_fit(&o->declared, LAB_ROUNDS_ALL, NULL, error))
     return error->status;
   if (doubt(&o->result) == 0)
     return settle_again(o, error);
+  status = is_least(o, &least, error);
+  if (status != LAB_OK || least)
+    return status;
   o->completed = o->declared;
   return lab_search_run(&o->completed, options, &o->result, error);
 }
