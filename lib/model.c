@@ -92,13 +92,14 @@ static void derive_flow(pneu_model *model)
   model->choked_gain = PNEU_M(sqrt)(gamma / R) * PNEU_M(pow)(2 / (gamma + 1), (gamma + 1) / (2 * (gamma - 1)));
 }
 
-/* The chamber law: which exponent, and whether the gas has a temperature of its own. A film resistance turns the
- * isothermal chamber into an energy balance (effects/heat_transfer.c), an exponent into a polytropic one. */
+/* The chamber law: which exponent, and whether the gas has a temperature of its own. A film turns the isothermal and the
+ * polytropic chamber into an energy balance (effects/heat_transfer.c), an exponent the isothermal into a polytropic one.
+ */
 static void derive_gas(pneu_model *model)
 {
   const int law = model->law.gas, heated = model->thermal;
   model->thermal = law != PNEU_GAS_ISOTHERMAL || heated || model->exponent_rise > 0;
-  model->g = law == PNEU_GAS_POLYTROPIC ? model->p.polytropic_index : model->p.heat_ratio;
+  model->g = law == PNEU_GAS_POLYTROPIC && !heated ? model->p.polytropic_index : model->p.heat_ratio;
   if (model->exponent_rise > 0 && !heated)
     model->g = 1 + model->exponent_rise;
   if (model->law.pressure_input)

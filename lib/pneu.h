@@ -86,7 +86,7 @@ extern "C" {
 /*    name         key in files   chamber law */
 #define PNEU_GAS_LIST(X) \
   X(ISOTHERMAL, "isothermal", "p V = m R T at ambient temperature [B, Eq. 6]") \
-  X(POLYTROPIC, "polytropic", "energy balance with exponent n in place of gamma, no wall; n = 1.4 is the adiabatic chamber") \
+  X(POLYTROPIC, "polytropic", "energy balance with n for gamma, no wall; n = 1.4 is adiabatic; beside a film, ENERGY") \
   X(ENERGY,     "energy",     "energy balance of an ideal gas with constant heat capacities and heat from the wall")
 
 #define PNEU_FLOW_LIST(X) \

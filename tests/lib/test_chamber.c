@@ -294,7 +294,8 @@ TEST(test_pneu_run__film_conductance_to_infinity__is_isothermal)
   assert_close(s.T, 298.15, 0, TOL(1e-5, 2e-3));
 }
 
-TEST(test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_gamma)
+/* A standard run under the energy and the polytropic law is one and the same. */
+static void check_same_run(const pneu_params *p)
 {
   static fixture_sample a[320], b[320];
   fixture_sample *out[2];
@@ -302,7 +303,7 @@ TEST(test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_gamma)
   out[0] = a;
   out[1] = b;
   for (i = 0; i < 2; i++) {
-    const pneu_model m = fixture_r1_400(gas[i], PNEU_FLOW_CHOKED);
+    const pneu_model m = fixture_model(p, gas[i], PNEU_FLOW_CHOKED);
     fixture_stretch stretch[3];
     pneu_state s;
     fixture_standard(&m, stretch);
@@ -315,6 +316,21 @@ TEST(test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_gamma)
     assert_close(a[i].T, b[i].T, 0, 0);
     assert_close(a[i].x, b[i].x, 0, 0);
   }
+}
+
+TEST(test_pneu_run__no_film__energy_law_is_the_polytropic_one_at_n_equal_gamma)
+{
+  const pneu_params p = fixture_params(FIXTURE_R1_400);
+  check_same_run(&p);
+}
+
+TEST(test_pneu_run__film_of_the_polytropic_law__is_that_of_the_energy_law_whatever_n)
+{
+  pneu_params p = fixture_params(FIXTURE_R1_400);
+  fixture_need("heat_transfer");
+  fixture_set(&p, "film_conductance", 2);
+  p.polytropic_index = (pneu_real)1.2;
+  check_same_run(&p);
 }
 
 TEST(test_pneu_run__film_between__lies_between_isothermal_and_adiabatic)
