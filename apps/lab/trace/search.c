@@ -16,65 +16,7 @@
 #include "preview.h"
 #include "refill.h"
 #include "rivals.h"
-
-/* What was found coarsely, row by row, where that leaves only noise as well: then no slip asked for the coarse view. */
-static int see_row_by_row(lab_finding *coarse, lab_error *error)
-{
-  lab_candidate *rows = malloc(sizeof *rows);
-  int status = rows ? LAB_OK : lab_fail_memory(error, "a candidate");
-  if (status == LAB_OK) {
-    *rows = coarse->best;
-    lab_unknowns_view(&rows->u, 0);
-    status = lab_candidate_fit(rows, LAB_ROUNDS_ALL, error);
-  }
-  if (status == LAB_OK && lab_is_noise(&rows->quality)) {
-    coarse->best = *rows;
-    coarse->result.window = 0;
-  }
-  free(rows);
-  return status == LAB_NUMERIC ? LAB_OK : status;
-}
-
-/* Whether friction that falls with speed was found, by which stems stick and slip. Anything else may leave only noise
- * in a coarse view because that sees little, and has to explain the log row by row. */
-static int is_of_slips(const lab_candidate *c)
-{
-  const int falls = pneu_effect_find("stribeck_friction");
-  int i, any = 0;
-  for (i = 0; i < c->n_found; i++)
-    any |= c->found[i].effect >= 0 && c->found[i].effect == falls;
-  return any;
-}
-
-/* The search seen coarsely, if the log is rough and values within tolerances do not explain it row by row: a valve that
- * is worn or set otherwise is far from its declared model, but need not stick and slip.
- * Out:     done  1 if it found why stems slip and left only noise; else
- *          f     is as it was */
-static int search_coarsely(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
-                           lab_error *error)
-{
-  lab_finding *coarse = malloc(sizeof *coarse);
-  int status;
-  *done = 0;
-  if (!coarse)
-    return lab_fail_memory(error, "the search");
-  *coarse = *f;
-  status = lab_unknowns_sticks_and_slips(u, 0, &coarse->result.window, error);
-  if (status == LAB_OK && coarse->result.window > 0)
-    status = lab_contest_hold(u, coarse, error) == LAB_WORLD ? LAB_WORLD : LAB_OK;
-  if (status == LAB_OK && coarse->result.window > 0 && !lab_is_noise(&f->held->quality)) {
-    coarse->declared.u = *u;
-    lab_unknowns_view(&coarse->declared.u, coarse->result.window);
-    status = lab_rounds_run(coarse, NULL, NULL, options, error);
-    *done = status == LAB_OK && lab_is_noise(&coarse->best.quality) && is_of_slips(&coarse->best);
-  }
-  if (*done) {
-    status = see_row_by_row(coarse, error);
-    *f = *coarse;
-  }
-  free(coarse);
-  return status;
-}
+#include "slips.h"
 
 /* The whole run: for a leak that a positioner makes up for, coarsely, then row by row.
  * Out:     leaks   whether such a leak is the answer, with what was found beside it
@@ -86,7 +28,7 @@ static int search_whole(const lab_unknowns *u, const lab_search_options *options
   if (lab_refill_is_asked(u))
     status = lab_refill_search(u, options, f, leaks, error);
   if (status == LAB_OK && !*leaks)
-    status = search_coarsely(u, options, f, coarse, error);
+    status = lab_slips_search(u, options, f, coarse, error);
   return status == LAB_OK && !*leaks && !*coarse ? lab_contest_run(u, 0, options, f, error) : status;
 }
 
