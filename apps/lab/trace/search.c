@@ -339,7 +339,8 @@ static int is_least(const outcome *o, int *least, lab_error *error)
 {
   lab_candidate *held = NULL;
   int status = LAB_OK;
-  *least = o->result.verdict == LAB_VERDICT_EFFECT && o->result.n_found == 1 && let_go(&o->declared, &o->completed) == 0;
+  *least =
+      o->result.verdict == LAB_VERDICT_EFFECT && o->result.n_found == 1 && let_go(&o->declared, &o->completed) == 0;
   if (*least) {
     held = calloc(1, sizeof *held);
     if (!held)

@@ -34,9 +34,8 @@ static int is_of_slips(const lab_candidate *c)
   return any;
 }
 
-/* The declared model, seen coarsely, with such friction from its usual size: whether it explains much of what that leaves.
- * In:      declared  fitted
- * Out:     with      of one shape after the other, until it does */
+/* The declared model, seen coarsely, with such friction from its usual size: whether it explains much of what that
+ * leaves. In:      declared  fitted Out:     with      of one shape after the other, until it does */
 static int slips_explain_much(const lab_candidate *declared, lab_candidate *with, int *much, lab_error *error)
 {
   const int effect = pneu_effect_find("stribeck_friction"), param = effect < 0 ? 0 : pneu_effect_params(effect, NULL);
