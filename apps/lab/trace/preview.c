@@ -162,7 +162,7 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
   const size_t n = (size_t)(lab_constant(LAB_PREVIEW_SHARE) * (double)u->run->n);
   lab_finding *first = malloc(sizeof *first), *whole = malloc(sizeof *whole);
   lab_candidate *held = calloc(1, sizeof *held);
-  int cut_short = 0, status = first && whole && held ? LAB_OK : lab_fail_memory(error, "the search");
+  int cut_short = 0, comes_near = 0, status = first && whole && held ? LAB_OK : lab_fail_memory(error, "the search");
   *done = 0;
   if (status == LAB_OK) {
     *first = *whole = *f;
@@ -172,10 +172,11 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
   if (status == LAB_OK && (first->result.verdict != LAB_VERDICT_UNDECIDED || first->sound > 0 || cut_short)) {
     status = fit_whole(u, n, cut_short, options, first, error);
     *done = status == LAB_OK && first->best.quality.fitted && (lab_is_noise(&first->best.quality) || cut_short);
+    comes_near = status == LAB_OK && !*done && first->best.n_found > 0 && !lab_is_plainly_off(&first->best.quality);
     keep_scores(u->run, n, first, whole);
-    if (*done)
+    if (*done || comes_near)
       status = lab_resume(u, options, first, whole, error);
-    *done &= status == LAB_OK;
+    *done = status == LAB_OK && (*done || (comes_near && lab_is_noise(&whole->best.quality)));
     if (*done)
       *f = *whole;
     else
