@@ -176,7 +176,7 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     keep_scores(u->run, n, first, whole);
     if (*done || comes_near)
       status = lab_resume(u, options, first, whole, error);
-    *done = status == LAB_OK && (*done || (comes_near && lab_is_noise(&whole->best.quality)));
+    *done = status == LAB_OK && (*done || (comes_near && whole->result.verdict == LAB_VERDICT_EFFECT));
     if (*done)
       *f = *whole;
     else

@@ -12,8 +12,8 @@
  * count for eight, and changes of the command for nine more. */
 int lab_preview_is_asked(const lab_unknowns *u);
 
-/* Search the beginning, fit what is found to the whole run, and go on from there if that leaves only noise, or effects
- * leave little more.
+/* Search the beginning, fit what is found to the whole run, and go on from there: if that leaves only noise, or if
+ * effects leave little more and the search then ends with effects.
  * In:      u     the declared model, fitted
  * In/out:  f     with the errors of that; if done, what was found
  * Out:     done  whether that leaves only noise, or the time of the beginning was spent; else f is as it was, but for
