@@ -143,6 +143,11 @@ TEST(test_rules__what_begins__is_fitted_where_it_scores_clearly_and_taken_where_
   f.begins = 119;
   assert_false(holds(LAB_PHASE_SCORED, LAB_DO_FIT_CLEAR_ONSET, &f));
   assert_true(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
+  f.extended = quality(215, 700); /* a leader that leaves a fiftieth is near enough */
+  assert_false(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
+  f.extended = quality(230, 700);
+  assert_true(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
+  f.extended = (lab_quality){0};
   f.begins = 49;
   assert_false(holds(LAB_PHASE_LED, LAB_DO_FIT_ONSET, &f));
   f.onset = quality(299, 1199); /* more than noise, but less than a tenth of the excess */
