@@ -105,19 +105,12 @@ static int count_near(const lab_score *score, int n, enum lab_constant share)
   return i;
 }
 
-/* The chi-square below which a model keeps up with the best.
- * In:      left  by the base */
-static double within_reach(double left, double best)
-{
-  const double rival = lab_constant(LAB_RIVAL) * best;
-  return best < left ? fmin(rival, left - lab_constant(LAB_RIVAL_GAIN) * (left - best)) : rival;
-}
-
 /* Fit those to the end that are in the running after a brief fit: whatever is nearly as good as the best, and the best
  * few rivals.
- * In:      reach  chi-square below which they keep up */
-static void fit_finalists(lab_candidate *c, int n, double reach, lab_error *all)
+ * In:      best  chi-square that they are to keep up with */
+static void fit_finalists(lab_candidate *c, int n, double best, lab_error *all)
 {
+  const double reach = lab_constant(LAB_RIVAL) * best;
   double bar;
   int i;
   qsort(c, (size_t)n, sizeof *c, lab_candidate_by_bic);
@@ -142,7 +135,6 @@ static void race(lab_refit_starts *s, const lab_score *score, int n, enum start 
   lab_candidate *mine = malloc(((size_t)n + 1) * sizeof *mine);
   lab_shared_slopes *from = &s->of[start == FROM_DECLARED || start == FROM_BOUND];
   const int is_late = isfinite(*best) && lab_cpu_is_spent(s->until);
-  const double left = s->of[0].base.quality.chi2;
   double reach;
   int i;
   if (!mine) {
@@ -160,7 +152,7 @@ static void race(lab_refit_starts *s, const lab_score *score, int n, enum start 
       begin_refit(&from->base, &score[i], start, &mine[i], all);
   }
   *best = fmin(*best, lab_least_chi2(mine, n));
-  reach = within_reach(left, *best);
+  reach = lab_constant(LAB_RIVAL) * *best;
 #pragma omp parallel for schedule(dynamic)
   for (i = 0; i < n; i++) {
     const lab_quality *q = &mine[i].quality;
@@ -189,7 +181,7 @@ static void refit_leaders(lab_refit_starts *s, const lab_score *leader, int n, l
     race(s, leader + first, n - first, FROM_SLOPE, c + first, best, all);
   for (start = FROM_SLOPE + 1; start < end && !lab_any(c, n, lab_is_noise); start++)
     race(s, leader, n, (enum start)start, c, best, all);
-  fit_finalists(c, n, within_reach(s->of[0].base.quality.chi2, *best), all);
+  fit_finalists(c, n, *best, all);
 }
 
 /* What was not refitted yet and may all the same be missing: what passes, though it explains little, and effects whose
@@ -222,7 +214,7 @@ static int refit_bent(lab_refit_starts *s, const lab_scores *scores, double leve
   int i;
   race(s, bent, all - n, FROM_DECLARED, c + n, best, error);
   race(s, bent, all - n, FROM_BOUND, c + n, best, error);
-  fit_finalists(c + n, all - n, within_reach(s->of[0].base.quality.chi2, *best), error);
+  fit_finalists(c + n, all - n, *best, error);
   for (i = n; i < all; i++) {
     lab_found *found = c[i].quality.fitted ? &c[i].found[c[i].n_found - 1] : NULL;
     if (found && found->statistic == 0) {
