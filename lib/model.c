@@ -92,8 +92,9 @@ static void derive_flow(pneu_model *model)
   model->choked_gain = PNEU_M(sqrt)(gamma / R) * PNEU_M(pow)(2 / (gamma + 1), (gamma + 1) / (2 * (gamma - 1)));
 }
 
-/* The chamber law: which exponent, and whether the gas has a temperature of its own. A film turns the isothermal and the
- * polytropic chamber into an energy balance (effects/heat_transfer.c), an exponent the isothermal into a polytropic one.
+/* The chamber law: which exponent, and whether the gas has a temperature of its own. A film turns the isothermal and
+ * the polytropic chamber into an energy balance (effects/heat_transfer.c), an exponent the isothermal into a polytropic
+ * one.
  */
 static void derive_gas(pneu_model *model)
 {

@@ -1,8 +1,8 @@
 /* Air that neither keeps its temperature nor all its heat: p V^n = const while the orifices are shut, by the balance of
  * the polytropic law, n - 1 over the isothermal law's n = 1. The polytropic law has an n of its own, and beside a film
- * (heat_transfer) the heat that passes decides under either; a film that passes none is the adiabatic chamber, so n ends before
- * it. Many models put n before the rate of the isothermal pressure and let the temperature stay (Richer and Hurmuzlu
- * 2000); that keeps p V^n too, but no balance of mass, and acts where the temperature is no state. */
+ * (heat_transfer) the heat that passes decides under either; a film that passes none is the adiabatic chamber, so n
+ * ends before it. Many models put n before the rate of the isothermal pressure and let the temperature stay (Richer and
+ * Hurmuzlu 2000); that keeps p V^n too, but no balance of mass, and acts where the temperature is no state. */
 #include "../internal.h"
 
 enum { RISE, RATE_RISE };

@@ -1,15 +1,17 @@
 /* Heat between gas and wall: Q = (G + c (rho/rho_a)^(2/3) |T_w - T|^(1/3)) (T_w - T), wall at ambient temperature,
  * rho_a the density of ambient air. Under the isothermal law the film is perfect; its resistance 1/G makes it real.
  * Under the other laws there is no film; its conductance makes one. An exponent stands for heat that passes, so that
- * beside a film the polytropic law has gamma in its place, and is the energy law. c is turbulent natural convection in a
- * closed vessel, Nu ~ Ra^(1/3): the length cancels, and Ra grows with the square of density. */
+ * beside a film the polytropic law has gamma in its place, and is the energy law, but takes no free term of heat. c is
+ * turbulent natural convection in a closed vessel, Nu ~ Ra^(1/3): the length cancels, and Ra grows with the square of
+ * density. */
 #include "../internal.h"
 
 enum { RESISTANCE, CONDUCTANCE, FREE };
 
 static const pneu_param_info params[] = {
     {"film_resistance", "K/W", 0, PNEU_C(1e4), PNEU_C(0.2), 0, 0, "1/(h A) of the film, for the isothermal law"},
-    {"film_conductance", "W/K", 0, PNEU_C(1e5), PNEU_C(5.0), 0, 0, "h A of the film, for the energy and polytropic laws"},
+    {"film_conductance", "W/K", 0, PNEU_C(1e5), PNEU_C(5.0), 0, 0,
+     "h A of the film, for the energy and polytropic laws"},
     {"free_convection", "W/K^1.333333333333333", 0, PNEU_C(1e4), PNEU_C(1.0), 0, 0,
      "natural convection at ambient density: heat per 4/3 power of the temperature difference"}};
 

@@ -159,6 +159,7 @@ static void keep_scores(const lab_run *x, size_t n, const lab_finding *first, la
 int lab_preview_search(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
                        lab_error *error)
 {
+  static const double most = 0.6; /* of the time that is left, by judgement: else the whole is searched */
   const size_t n = (size_t)(lab_constant(LAB_PREVIEW_SHARE) * (double)u->run->n);
   lab_finding *first = malloc(sizeof *first), *whole = malloc(sizeof *whole);
   lab_candidate *held = calloc(1, sizeof *held);
@@ -174,8 +175,11 @@ int lab_preview_search(const lab_unknowns *u, const lab_search_options *options,
     *done = status == LAB_OK && first->best.quality.fitted && (lab_is_noise(&first->best.quality) || cut_short);
     comes_near = status == LAB_OK && !*done && first->best.n_found > 0 && !lab_is_plainly_off(&first->best.quality);
     keep_scores(u->run, n, first, whole);
+    if (comes_near)
+      first->best.u.until = lab_cpu_share(u->until, most);
     if (*done || comes_near)
       status = lab_resume(u, options, first, whole, error);
+    whole->best.u.until = u->until;
     *done = status == LAB_OK && (*done || (comes_near && whole->result.verdict == LAB_VERDICT_EFFECT));
     if (*done)
       *f = *whole;

@@ -333,21 +333,21 @@ static int settle_again(outcome *o, lab_error *error)
   return status;
 }
 
-/* Whether less than what was found cannot explain the logs: it is one thing beside values near their sheet, and without
- * it these are plainly off within their tolerances as well. */
+/* Whether less than what was found cannot explain the logs: it is one effect beside values near their sheet, nothing is
+ * in doubt, and values within their tolerances alone are fitted and plainly off. */
 static int is_least(const outcome *o, int *least, lab_error *error)
 {
   lab_candidate *held = NULL;
   int status = LAB_OK;
   *least =
-      o->result.verdict == LAB_VERDICT_EFFECT && o->result.n_found == 1 && let_go(&o->declared, &o->completed) == 0;
+      o->result.verdict == LAB_VERDICT_EFFECT && doubt(&o->result) == 2 && let_go(&o->declared, &o->completed) == 0;
   if (*least) {
     held = calloc(1, sizeof *held);
     if (!held)
       return lab_fail_memory(error, "the search");
     held->u = o->declared;
     status = lab_candidate_hold(held, error);
-    *least = status == LAB_OK && lab_is_plainly_off(&held->quality);
+    *least = status == LAB_OK && held->quality.fitted && lab_is_plainly_off(&held->quality);
   }
   free(held);
   return status == LAB_WORLD ? status : LAB_OK;

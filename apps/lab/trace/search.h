@@ -79,8 +79,8 @@ int lab_search_run(lab_unknowns *u, const lab_search_options *options, lab_searc
 /* Run a search once more without the values that stand alone (outliers.h), if there are any. If that leaves less to
  * explain or to doubt, or nothing, the new answer takes the place of the old one, and the bench's remarks say what was
  * left out; else nothing changes. Nor does it where the log was seen coarsely, where something begins and nothing else
- * is in doubt, or where one effect explains what values within their tolerances leave plainly unexplained without them
- * as well.
+ * is in doubt, or where one effect, with no value far off its sheet, explains the log, and without the values that
+ * stand alone tolerances still do not.
  * In/out:  bench      its logs
  *          declared   fitted
  *          completed  model, and

@@ -34,15 +34,18 @@ static int is_of_slips(const lab_candidate *c)
   return any;
 }
 
-/* The declared model, seen coarsely, with such friction from its usual size: whether it explains much of what that
- * leaves. In:      declared  fitted Out:     with      of one shape after the other, until it does */
+/* Whether such friction, which the declared model lacks, explains much of what that leaves, from its usual size and one
+ * shape after the other.
+ * In:      declared  seen coarsely, fitted
+ * Out:     with      room */
 static int slips_explain_much(const lab_candidate *declared, lab_candidate *with, int *much, lab_error *error)
 {
   const int effect = pneu_effect_find("stribeck_friction"), param = effect < 0 ? 0 : pneu_effect_params(effect, NULL);
   lab_score score = {.effect = effect, .param = param, .shape = param + 1};
+  const int lacks = effect >= 0 && lab_score_lacks(&declared->u, effect);
   int which, status = LAB_OK;
   *much = 0;
-  for (which = 0; effect >= 0 && which < LAB_SCORE_SHAPES && status != LAB_WORLD && !*much; which++) {
+  for (which = 0; lacks && which < LAB_SCORE_SHAPES && status != LAB_WORLD && !*much; which++) {
     *with = *declared;
     score.shape_value = lab_score_shape(&declared->u.rig.params, &score, which);
     status = lab_candidate_add_effect(with, &score, lab_score_usual(&declared->u, param), error);

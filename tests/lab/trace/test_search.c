@@ -5,6 +5,7 @@
 
 #include "../../../apps/lab/check/logs.h"
 #include "../../../apps/lab/fit/deviations.h"
+#include "../../../apps/lab/fit/outliers.h"
 #include "../../../apps/lab/trace/rounds.h"
 #include "../../../apps/lab/trace/freeterms.h"
 
@@ -342,6 +343,7 @@ TEST(test_lab_search_without_outliers__leak_and_three_accidents__is_not_looked_f
   second_rig g = true_rig();
   lab_search_options options;
   lab_unknowns declared;
+  lab_outliers out = {0};
   double *p, struck[COUNT(row)];
   int i, progress = 0;
   fixture_need("chamber_leak");
@@ -362,6 +364,14 @@ TEST(test_lab_search_without_outliers__leak_and_three_accidents__is_not_looked_f
   succeed(lab_search_run(&u, &options, &result, &error));
   assert_int_equal(result.verdict, LAB_VERDICT_EFFECT);
   assert_true(progress > 0);
+  assert_int_equal(result.window, 0);
+  assert_false(result.cut_short);
+  succeed(lab_outliers_take(&declared, bench.log, &out, &error));
+  assert_int_equal(out.n, COUNT(row));
+  assert_int_equal(out.n_soon, 0);
+  lab_outliers_put_back(&out);
+  lab_outliers_free(&out);
+  lab_unknowns_view(&declared, 0);
   progress = 0;
   succeed(lab_search_without_outliers(&options, &bench, &declared, &u, &result, &error));
   assert_int_equal(progress, 0);
