@@ -21,7 +21,7 @@ fuzz:
 .PHONY: fuzz
 
 $(BUILD)/fuzz: $(FUZZ_C:%.c=$(BUILD)/%.o)
-	$(say) $(CC) $(FLAGS) -fsanitize=fuzzer $^ -lconfig -ludunits2 -lcjson -lm -o $@
+	$(say) $(CC) $(FLAGS) -fsanitize=fuzzer $^ -lnlopt -lconfig -ludunits2 -lcjson -lm -o $@
 
 # Where the fuzzer is not to look for new ways: nearest names take most of the time otherwise, the library holds no reader.
 ifneq ($(findstring fuzzer,$(SANITIZE)),)
