@@ -93,9 +93,8 @@ static void derive_flow(pneu_model *model)
 }
 
 /* The chamber law: which exponent, and whether the gas has a temperature of its own. A film turns the isothermal and
- * the polytropic chamber into an energy balance (effects/heat_transfer.c), an exponent the isothermal into a polytropic
- * one.
- */
+ * the polytropic chamber into an energy balance (effects/heat_transfer.c), an exponent the isothermal one into a
+ * polytropic one. */
 static void derive_gas(pneu_model *model)
 {
   const int law = model->law.gas, heated = model->thermal;

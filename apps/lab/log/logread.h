@@ -119,8 +119,8 @@ int lab_long_check(lab_csv *csv, const lab_log_format *format, const lab_guess *
 #define LAB_LEAVE_OUT "; to leave such rows out, write into the rig file: log = { damaged = \"drop\"; };"
 #define LAB_EXPECTED_LATER "channel t: expected more than the %.9g s of the row before, found %.9g s%s%s"
 
-/* Such a clock may give several rows one time: asked where it has. Where they cannot be made even they are spread over its step. More than
- * twice the usual number and one are no such thing.
+/* Such a clock may give several rows one time: asked where it has. Where they cannot be made even they are spread over
+ * its step. More than twice the usual number and one are no such thing.
  * In/out:  log  its times, and `repeated`
  * Returns: LAB_OK; LAB_DATA with the line. */
 int lab_log_part_repeats(lab_log *log, lab_error *error);

@@ -11,6 +11,9 @@
 #include "refill.h"
 #include "resume.h"
 
+/* Of the time that is left, for what may be in vain: then the whole is searched.  By judgement. */
+static const double most = 0.6;
+
 /* What a simulation of a run costs, in rows of one whose command hardly changes: in a loop every row may switch. */
 static double cost_of(const lab_unknowns *u)
 {
@@ -86,7 +89,6 @@ static void widen(const lab_unknowns *u, lab_candidate *c)
  * In/out:  f  best: with the values of these rows; then fitted to the whole run, with what begins in it, or neither */
 static int fit_further(lab_finding *f, size_t rows, double alpha, lab_error *error)
 {
-  static const double most = 0.6; /* of the time that is left, by judgement: else the whole is searched */
   const double until = f->best.u.until;
   lab_candidate *onset = malloc(sizeof *onset);
   size_t sound = 0;
@@ -159,7 +161,6 @@ static void keep_scores(const lab_run *x, size_t n, const lab_finding *first, la
 int lab_preview_search(const lab_unknowns *u, const lab_search_options *options, lab_finding *f, int *done,
                        lab_error *error)
 {
-  static const double most = 0.6; /* of the time that is left, by judgement: else the whole is searched */
   const size_t n = (size_t)(lab_constant(LAB_PREVIEW_SHARE) * (double)u->run->n);
   lab_finding *first = malloc(sizeof *first), *whole = malloc(sizeof *whole);
   lab_candidate *held = calloc(1, sizeof *held);

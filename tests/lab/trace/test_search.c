@@ -209,7 +209,7 @@ TEST(test_lab_search_run__adiabatic_chamber__lacks_heat_transfer)
   assert_close(result.after.in_noise[LAB_CHANNEL_P], 1, 0.08, 0);
 }
 
-/* An exponent between isothermal and adiabatic stands for a film, and is seen not to be one. */
+/* Declared is an exponent between isothermal and adiabatic; it is a film that lets heat pass, and is found. */
 TEST(test_lab_search_run__film_declared_as_an_exponent__lacks_heat_transfer)
 {
   second_rig g = true_rig();
